@@ -1,0 +1,72 @@
+//! What goes in and what comes out: soups, clouds, lattices, layers, warnings. Plain data, validated once.
+mod cloud;
+mod lattice;
+mod layers;
+mod mesh;
+mod monitor;
+mod soup;
+mod warning;
+
+pub use cloud::{CloudError, OrientedCloud, PointCloud};
+pub use lattice::{Grid, Lattice, LatticeError};
+pub use layers::{Layer, Polygon, Ring, signed_area};
+pub use mesh::SurfaceMesh;
+pub use monitor::{Cancelled, Monitor, Silent};
+pub use soup::{SoupError, TriangleSoup};
+pub use warning::{Warning, WarningKind};
+
+use crate::math::Aabb;
+use std::sync::Arc;
+
+/// Geometry that has a winding field.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    Soup(Arc<TriangleSoup>),
+    Cloud(Arc<OrientedCloud>),
+}
+
+impl Shape {
+    /// The smallest box around all triangles or points.
+    pub fn bounds(&self) -> Aabb {
+        match self {
+            Shape::Soup(soup) => soup.bounds(),
+            Shape::Cloud(cloud) => cloud.bounds(),
+        }
+    }
+
+    /// Number of triangles or points.
+    pub fn len(&self) -> usize {
+        match self {
+            Shape::Soup(soup) => soup.len(),
+            Shape::Cloud(cloud) => cloud.len(),
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl From<TriangleSoup> for Shape {
+    fn from(soup: TriangleSoup) -> Self {
+        Shape::Soup(Arc::new(soup))
+    }
+}
+
+impl From<OrientedCloud> for Shape {
+    fn from(cloud: OrientedCloud) -> Self {
+        Shape::Cloud(Arc::new(cloud))
+    }
+}
+
+impl From<Arc<TriangleSoup>> for Shape {
+    fn from(soup: Arc<TriangleSoup>) -> Self {
+        Shape::Soup(soup)
+    }
+}
+
+impl From<Arc<OrientedCloud>> for Shape {
+    fn from(cloud: Arc<OrientedCloud>) -> Self {
+        Shape::Cloud(cloud)
+    }
+}

@@ -1,0 +1,123 @@
+use super::{Warning, WarningKind};
+use crate::math::{Aabb, Vec3};
+
+/// Triangles without any promise about how they fit together: holes, flips, duplicates and
+/// self-intersections are all allowed.
+///
+/// Guarantees: every index names a vertex, and every vertex that a triangle uses is finite.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriangleSoup {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Why positions and triangles do not make a [`TriangleSoup`].
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SoupError {
+    #[error("triangle {triangle} names vertex {index}, but there are only {vertices} vertices (0 to {max})", max = vertices.saturating_sub(1))]
+    IndexOutOfRange { triangle: usize, index: u32, vertices: usize },
+    #[error("vertex {vertex} is not finite: every coordinate must be a finite number")]
+    NonFiniteVertex { vertex: usize },
+    #[error("{0} vertices are too many: at most 4,294,967,295 can be indexed")]
+    TooManyVertices(usize),
+}
+
+impl TriangleSoup {
+    /// Makes a soup of `positions` (millimetres) and `triangles` (three vertex indices each, counter-clockwise
+    /// seen from outside).
+    ///
+    /// # Errors
+    /// If and only if an index names no vertex, or a triangle uses a vertex that is not finite.
+    pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriangleSoup, SoupError> {
+        if positions.len() > u32::MAX as usize {
+            return Err(SoupError::TooManyVertices(positions.len()));
+        }
+        for (triangle, corners) in triangles.iter().enumerate() {
+            for &index in corners {
+                match positions.get(index as usize) {
+                    None => {
+                        return Err(SoupError::IndexOutOfRange {
+                            triangle,
+                            index,
+                            vertices: positions.len(),
+                        });
+                    }
+                    Some(p) if !p.is_finite() => {
+                        return Err(SoupError::NonFiniteVertex { vertex: index as usize });
+                    }
+                    Some(_) => {}
+                }
+            }
+        }
+        Ok(TriangleSoup { positions, triangles })
+    }
+
+    /// Makes a soup of what is usable: triangles with an index out of range or a vertex that is not finite are
+    /// dropped and counted in the warnings.
+    pub fn cleaned(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> (TriangleSoup, Vec<Warning>) {
+        let (mut out_of_range, mut non_finite) = (0, 0);
+        triangles.retain(|corners| {
+            let vertices = corners.map(|i| positions.get(i as usize));
+            let in_range = vertices.iter().all(|v| v.is_some());
+            let finite = vertices.iter().flatten().all(|v| v.is_finite());
+            out_of_range += usize::from(!in_range);
+            non_finite += usize::from(in_range && !finite);
+            in_range && finite
+        });
+        let counts =
+            [(WarningKind::IndexOutOfRange, out_of_range), (WarningKind::NonFiniteFaces, non_finite)];
+        let warnings = counts.into_iter().filter(|c| c.1 > 0).map(|(k, n)| Warning::new(k, n)).collect();
+        (TriangleSoup { positions, triangles }, warnings)
+    }
+
+    /// Number of triangles.
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// All vertices, also those that no triangle uses.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The three corners of triangle `index`.
+    pub fn corners(&self, index: usize) -> [Vec3; 3] {
+        self.triangles[index].map(|i| self.positions[i as usize])
+    }
+
+    /// The smallest box around all triangles; vertices that no triangle uses do not count.
+    pub fn bounds(&self) -> Aabb {
+        Aabb::around(self.triangles.iter().flatten().map(|&i| self.positions[i as usize]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_faces_are_dropped_and_counted() {
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::splat(f64::NAN)];
+        let faces = vec![[0, 1, 2], [0, 1, 3], [0, 1, 9], [3, 9, 9]];
+        let (soup, warnings) = TriangleSoup::cleaned(positions.clone(), faces);
+        assert_eq!(soup.len(), 1);
+        let counts: Vec<_> = warnings.iter().map(|w| (w.kind, w.count)).collect();
+        assert_eq!(counts, [(WarningKind::IndexOutOfRange, 2), (WarningKind::NonFiniteFaces, 1)]);
+        assert_eq!(
+            TriangleSoup::new(positions.clone(), vec![[0, 1, 2], [0, 7, 2]]),
+            Err(SoupError::IndexOutOfRange { triangle: 1, index: 7, vertices: 4 })
+        );
+        assert_eq!(
+            TriangleSoup::new(positions, vec![[0, 3, 2]]),
+            Err(SoupError::NonFiniteVertex { vertex: 3 })
+        );
+    }
+}

@@ -1,0 +1,78 @@
+use serde::Serialize;
+use std::fmt;
+
+/// Something in the input that was put right or left out, with how often: never a reason to refuse it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Warning {
+    pub kind: WarningKind,
+    /// How many faces, points, records or bytes it concerns.
+    pub count: usize,
+}
+
+/// What a [`Warning`] is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WarningKind {
+    /// Faces that used a NaN or infinite vertex were dropped.
+    NonFiniteFaces,
+    /// Faces that named a vertex which does not exist were dropped.
+    IndexOutOfRange,
+    /// Points with a NaN or infinite coordinate were dropped.
+    NonFinitePoints,
+    /// Normals of length zero or not finite were replaced by estimates, or the points dropped.
+    BadNormals,
+    /// The header promised another number of records than the file holds: what is there was read.
+    CountMismatch,
+    /// The last record was cut short and dropped.
+    TruncatedRecord,
+    /// Bytes after the last record were ignored.
+    TrailingBytes,
+    /// Faces with fewer than three corners, or lines and other elements, were skipped.
+    SkippedElements,
+    /// The model's diagonal is below 1 mm: are its units metres or inches?
+    TinyModel,
+    /// The model's diagonal is above 2,000 mm: are its units micrometres?
+    HugeModel,
+    /// Points carried no normals: they were estimated and oriented by propagation, which can fail on
+    /// thin or sparse parts.
+    EstimatedNormals,
+}
+
+impl Warning {
+    pub fn new(kind: WarningKind, count: usize) -> Warning {
+        Warning { kind, count }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let n = self.count;
+        match self.kind {
+            WarningKind::NonFiniteFaces => write!(f, "{n} faces with a NaN or infinite vertex were dropped"),
+            WarningKind::IndexOutOfRange => {
+                write!(f, "{n} faces that name a vertex which does not exist were dropped")
+            }
+            WarningKind::NonFinitePoints => {
+                write!(f, "{n} points with a NaN or infinite coordinate were dropped")
+            }
+            WarningKind::BadNormals => write!(f, "{n} points had no usable normal"),
+            WarningKind::CountMismatch => {
+                write!(f, "the header's count is off by {n} records; what the file holds was read")
+            }
+            WarningKind::TruncatedRecord => write!(f, "{n} records at the end were cut short and dropped"),
+            WarningKind::TrailingBytes => write!(f, "{n} bytes after the last record were ignored"),
+            WarningKind::SkippedElements => {
+                write!(f, "{n} elements that are neither faces nor points were skipped")
+            }
+            WarningKind::TinyModel => {
+                write!(f, "the model is smaller than 1 mm across: check its unit (read as millimetres)")
+            }
+            WarningKind::HugeModel => {
+                write!(f, "the model is larger than 2,000 mm across: check its unit (read as millimetres)")
+            }
+            WarningKind::EstimatedNormals => {
+                write!(f, "normals of {n} points were estimated; thin or sparse parts may come out inverted")
+            }
+        }
+    }
+}

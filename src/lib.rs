@@ -1,0 +1,8 @@
+//! **fast-winding** answers *inside or outside?* for geometry as it is found: triangle soups with holes, flips,
+//! duplicates and self-intersections, and point clouds.
+#![deny(unsafe_code)]
+
+pub mod data;
+pub mod math;
+
+pub use data::{Lattice, OrientedCloud, PointCloud, TriangleSoup};

@@ -1,0 +1,65 @@
+use super::Vec3;
+
+/// An axis-aligned box, `min` to `max` inclusive; empty when `min > max` on an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    pub min: Vec3,
+    pub max: Vec3,
+}
+
+impl Aabb {
+    /// The box that holds nothing: the neutral element of [`Aabb::union`].
+    pub const EMPTY: Aabb = Aabb { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+
+    /// The smallest box around `points`; [`Aabb::EMPTY`] when there are none.
+    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
+        points.into_iter().fold(Aabb::EMPTY, |all, p| all.including(p))
+    }
+
+    pub fn including(self, p: Vec3) -> Aabb {
+        Aabb { min: self.min.min(p), max: self.max.max(p) }
+    }
+
+    pub fn union(self, other: Aabb) -> Aabb {
+        Aabb { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        !self.min.cmple(self.max).all()
+    }
+
+    /// Edge lengths; zero for an empty box.
+    pub fn size(&self) -> Vec3 {
+        if self.is_empty() { Vec3::ZERO } else { self.max - self.min }
+    }
+
+    pub fn center(&self) -> Vec3 {
+        if self.is_empty() { Vec3::ZERO } else { self.min + 0.5 * (self.max - self.min) }
+    }
+
+    pub fn diagonal(&self) -> f64 {
+        self.size().length()
+    }
+
+    /// The box grown by `margin` on every side.
+    pub fn padded(self, margin: f64) -> Aabb {
+        Aabb { min: self.min - Vec3::splat(margin), max: self.max + Vec3::splat(margin) }
+    }
+
+    pub fn contains(&self, p: Vec3) -> bool {
+        self.min.cmple(p).all() && p.cmple(self.max).all()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn empty_box_is_neutral_and_has_no_size() {
+        let p = Vec3::new(1.0, -2.0, 3.0);
+        assert_eq!(Aabb::EMPTY.including(p), Aabb { min: p, max: p });
+        assert!(Aabb::EMPTY.is_empty());
+        assert_eq!(Aabb::EMPTY.size(), Vec3::ZERO);
+    }
+}

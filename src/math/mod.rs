@@ -1,0 +1,9 @@
+//! Vectors, boxes, triangles and small matrices: no knowledge of files, trees or fields.
+mod aabb;
+mod plane;
+mod triangle;
+
+pub use aabb::Aabb;
+pub use glam::{DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
+pub use plane::{PlaneFit, fit_plane};
+pub use triangle::{area_vector, barycentre, solid_angle};

@@ -1,0 +1,50 @@
+//! The solid angle of a triangle: van Oosterom & Strackee 1983; Barill et al. 2018, eq. 1.
+use super::Vec3;
+
+/// The normal of triangle `abc` scaled by its area: ½ (b − a) × (c − a).
+pub fn area_vector([a, b, c]: [Vec3; 3]) -> Vec3 {
+    0.5 * (b - a).cross(c - a)
+}
+
+pub fn barycentre([a, b, c]: [Vec3; 3]) -> Vec3 {
+    (a + b + c) / 3.0
+}
+
+/// Signed solid angle of triangle `abc` seen from `q`, in steradians, within ±2π.
+///
+/// Positive where the triangle's normal points away from `q`. Zero in the triangle's own plane, on the
+/// triangle included: that is the principal value, so that a closed surface gives w = 1/2 on a face.
+pub fn solid_angle(q: Vec3, [a, b, c]: [Vec3; 3]) -> f64 {
+    // Edges are subtracted before the cross product: that stays accurate far from the triangle.
+    let normal = (b - a).cross(c - a);
+    let (a, b, c) = (a - q, b - q, c - q);
+    let numerator = a.dot(normal);
+    if numerator == 0.0 {
+        return 0.0;
+    }
+    let (la, lb, lc) = (a.length(), b.length(), c.length());
+    let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    2.0 * libm::atan2(numerator, denominator)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn octant_triangle_spans_an_eighth_of_the_sphere() {
+        let octant = [Vec3::X, Vec3::Y, Vec3::Z];
+        assert!((solid_angle(Vec3::ZERO, octant) - PI / 2.0).abs() < 1e-15);
+        let [a, b, c] = octant;
+        assert!((solid_angle(Vec3::ZERO, [a, c, b]) + PI / 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn own_plane_and_own_vertex_contribute_nothing() {
+        let t = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        for q in [Vec3::ZERO, Vec3::new(0.25, 0.25, 0.0), Vec3::new(-3.0, 5.0, 0.0)] {
+            assert_eq!(solid_angle(q, t), 0.0);
+        }
+    }
+}
