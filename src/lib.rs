@@ -2,7 +2,11 @@
 //! duplicates and self-intersections, and point clouds.
 #![deny(unsafe_code)]
 
+pub mod bvh;
 pub mod data;
 pub mod math;
+pub mod treecode;
+pub mod winding;
 
 pub use data::{Lattice, OrientedCloud, PointCloud, TriangleSoup};
+pub use winding::WindingField;
