@@ -4,6 +4,7 @@
 
 pub mod bvh;
 pub mod data;
+pub mod estimate;
 pub mod math;
 pub mod treecode;
 pub mod winding;
