@@ -5,6 +5,7 @@
 pub mod bvh;
 pub mod data;
 pub mod estimate;
+pub mod levelset;
 pub mod math;
 pub mod treecode;
 pub mod winding;
