@@ -3,10 +3,14 @@
 #![deny(unsafe_code)]
 
 pub mod bvh;
+pub mod check;
 pub mod data;
 pub mod estimate;
 pub mod levelset;
 pub mod math;
+pub mod slice;
+pub mod solid;
+pub mod surface;
 pub mod treecode;
 pub mod winding;
 

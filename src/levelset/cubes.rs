@@ -13,10 +13,14 @@ pub struct SurfaceGrid {
     pub spacing: f64,
 }
 
-/// The surface reaches farther than keys can count.
+/// Why a surface could not be traced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the surface spans more than {} cells on an axis: ask for larger cells", LIMIT)]
-pub struct TooFine;
+pub enum TraceError {
+    #[error("the surface spans more than {} cells on an axis: ask for larger cells", LIMIT)]
+    TooFine,
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
 
 /// Coordinates must stay within ±2¹⁹ so that three of them and an axis fit one 64-bit key.
 const LIMIT: i32 = 1 << 19;
@@ -44,15 +48,15 @@ fn corner_of([x, y, z]: Cell, corner: usize) -> Cell {
 /// `inside` gets a position and scratch space; it is called from many threads.
 ///
 /// # Errors
-/// `Ok(Err(TooFine))` if and only if the surface spans more than a million cells; `Err` if and only if cancelled.
+/// If and only if the surface spans more than half a million cells, or the monitor cancels.
 pub fn trace_surface(
     grid: &SurfaceGrid,
     seeds: &[Cell],
     inside: impl Fn(Vec3, &mut Vec<u32>) -> bool + Sync,
     monitor: &dyn Monitor,
-) -> Result<Result<SurfaceMesh, TooFine>, Cancelled> {
+) -> Result<SurfaceMesh, TraceError> {
     let mut continuation = Continuation { grid, inside: &inside, nodes: FxHashMap::default() };
-    let Some(active) = continuation.active_cells(seeds, monitor)? else { return Ok(Err(TooFine)) };
+    let active = continuation.active_cells(seeds, monitor)?;
     let edges = crossed_edges(&active);
     let positions = continuation.vertices(&edges, monitor)?;
     let index: FxHashMap<u64, u32> = edges.iter().zip(0..).map(|(e, i)| (*e, i)).collect();
@@ -60,7 +64,7 @@ pub fn trace_surface(
         TRIANGLES[usize::from(case)].iter().map(move |t| t.map(|e| (cell, usize::from(e))))
     });
     let triangles = triangles.map(|t| t.map(|(cell, e)| index[&edge_key(cell, e)])).collect();
-    Ok(Ok(SurfaceMesh::with_face_normals(positions, triangles)))
+    Ok(SurfaceMesh::with_face_normals(positions, triangles))
 }
 
 /// Key of an edge of a cell: that of its lower node, and the axis in the top bits.
@@ -94,19 +98,14 @@ impl<F: Fn(Vec3, &mut Vec<u32>) -> bool + Sync> Continuation<'_, F> {
         self.grid.origin + self.grid.spacing * Vec3::new(f64::from(x), f64::from(y), f64::from(z))
     }
 
-    /// All cells that the level set passes through, with their cases, in the order of their keys; nothing if they do
-    /// not fit the keys.
-    fn active_cells(
-        &mut self,
-        seeds: &[Cell],
-        monitor: &dyn Monitor,
-    ) -> Result<Option<Vec<(Cell, u8)>>, Cancelled> {
+    /// All cells that the level set passes through, with their cases, in the order of their keys.
+    fn active_cells(&mut self, seeds: &[Cell], monitor: &dyn Monitor) -> Result<Vec<(Cell, u8)>, TraceError> {
         let mut visited: FxHashSet<u64> = FxHashSet::default();
         let mut active = Vec::new();
         let mut frontier: Vec<Cell> = seeds.to_vec();
         while !frontier.is_empty() {
             if !frontier.iter().all(|c| fits(*c)) {
-                return Ok(None);
+                return Err(TraceError::TooFine);
             }
             frontier.retain(|&cell| visited.insert(key(cell)));
             self.sample_corners(&frontier, monitor)?;
@@ -121,7 +120,7 @@ impl<F: Fn(Vec3, &mut Vec<u32>) -> bool + Sync> Continuation<'_, F> {
             frontier = next;
         }
         active.sort_unstable_by_key(|&(cell, _)| key(cell));
-        Ok(Some(active))
+        Ok(active)
     }
 
     fn case(&self, cell: Cell) -> u8 {
@@ -196,7 +195,7 @@ mod tests {
             .iter()
             .map(|p| crate::levelset::cells_of_point(*p, grid.origin, Vec3::splat(spacing)))
             .collect();
-        trace_surface(&grid, &cells, |p, _| inside(p), &Silent).unwrap().unwrap()
+        trace_surface(&grid, &cells, |p, _| inside(p), &Silent).unwrap()
     }
 
     #[test]
@@ -227,7 +226,7 @@ mod tests {
             in_box && h - h.floor() < 0.5
         };
         let seeds: Vec<Cell> = (0..15 * 15 * 15).map(|i| [i % 15, i / 15 % 15, i / 225]).collect();
-        let mesh = trace_surface(&grid, &seeds, inside, &Silent).unwrap().unwrap();
+        let mesh = trace_surface(&grid, &seeds, inside, &Silent).unwrap();
         assert!(mesh.triangles.len() > 5_000);
         euler_number(&mesh);
     }
@@ -236,6 +235,6 @@ mod tests {
     fn surfaces_too_large_for_the_keys_are_refused() {
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
         let cell = [LIMIT, 0, 0];
-        assert_eq!(trace_surface(&grid, &[cell], |_, _| true, &Silent), Ok(Err(TooFine)));
+        assert_eq!(trace_surface(&grid, &[cell], |_, _| true, &Silent), Err(TraceError::TooFine));
     }
 }

@@ -5,7 +5,7 @@ mod cubes;
 mod seeds;
 mod squares;
 
-pub use cubes::{SurfaceGrid, TooFine, trace_surface};
+pub use cubes::{SurfaceGrid, TraceError, trace_surface};
 pub use seeds::{Cell, cells_of_point, cells_of_shape, cells_of_triangle};
 pub use squares::{PlaneGrid, trace_contours};
 
