@@ -3,6 +3,7 @@
 #![deny(unsafe_code)]
 
 pub mod data;
+pub mod io;
 pub mod math;
 
 pub use data::{Lattice, OrientedCloud, PointCloud, TriangleSoup};
