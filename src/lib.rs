@@ -6,6 +6,7 @@ pub mod bvh;
 pub mod check;
 pub mod data;
 pub mod estimate;
+pub mod io;
 pub mod levelset;
 pub mod math;
 pub mod slice;

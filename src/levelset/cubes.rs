@@ -203,7 +203,7 @@ mod tests {
         let mesh = trace(0.05, &[Vec3::X], |p| p.length() < 1.0);
         assert_eq!(euler_number(&mesh), 2);
         assert!((mesh.volume() / (4.0 / 3.0 * PI) - 1.0).abs() < 2e-3, "{}", mesh.volume());
-        assert!(mesh.positions.iter().all(|p| (p.length() - 1.0).abs() < 1e-7));
+        assert!(mesh.positions.iter().all(|p| (p.length() - 1.0).abs() < 1e-6));
         assert!(mesh.positions.iter().zip(&mesh.normals).all(|(p, n)| p.dot(*n) > 0.98));
     }
 

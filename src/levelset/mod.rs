@@ -9,11 +9,11 @@ pub use cubes::{SurfaceGrid, TraceError, trace_surface};
 pub use seeds::{Cell, cells_of_point, cells_of_shape, cells_of_triangle};
 pub use squares::{PlaneGrid, trace_contours};
 
-/// Steps of bisection on a crossed edge: 2⁻²⁴ of the edge, finer than 32-bit floats can show.
-const BISECTIONS: u32 = 24;
+/// Steps of bisection on a crossed edge: to a millionth of it.
+const BISECTIONS: u32 = 20;
 
 /// Vertices keep this share of an edge away from its ends, so that no two of them coincide and outlines stay simple.
-const CLEARANCE: f64 = 1e-7;
+const CLEARANCE: f64 = 1e-6;
 
 /// Where between 0 and 1 an inside test changes, given that it is `at_zero` at 0 and the opposite at 1.
 ///

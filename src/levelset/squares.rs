@@ -136,9 +136,9 @@ impl<F: FnMut(Vec2) -> bool> Tracer<'_, F> {
     }
 }
 
-/// Share of a cell by which a vertex may lie off the line between its neighbours and still be left out: a hundred times
-/// the error of bisection, far below what can be seen.
-const COLLINEAR: f64 = 1e-6;
+/// Share of a cell by which a vertex may lie off the line between its neighbours and still be left out: ten times the
+/// error of bisection, far below what can be seen.
+const COLLINEAR: f64 = 1e-5;
 
 fn without_collinear(ring: Ring, spacing: f64) -> Ring {
     let mut kept: Ring = Vec::new();

@@ -9,14 +9,14 @@ use serde::Serialize;
 /// How a field is prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldConfig {
-    /// Most triangles or points in a leaf of the tree. Of 4, 8 and 16 on the bunny and on a cloud sampled from it, 16
-    /// builds fastest and is smallest, at no cost to queries.
+    /// Most triangles or points in a leaf of the tree. On the Stanford bunny, 4, 8 and 16 answer alike over a lattice;
+    /// next to the surface 8 is fastest, and 16 builds a third faster in three quarters of the memory.
     pub leaf_size: usize,
 }
 
 impl Default for FieldConfig {
     fn default() -> Self {
-        FieldConfig { leaf_size: 16 }
+        FieldConfig { leaf_size: 8 }
     }
 }
 
