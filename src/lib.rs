@@ -2,8 +2,13 @@
 //! duplicates and self-intersections, and point clouds.
 #![deny(unsafe_code)]
 
+pub mod bvh;
 pub mod data;
+pub mod estimate;
 pub mod io;
 pub mod math;
+pub mod treecode;
+pub mod winding;
 
 pub use data::{Lattice, OrientedCloud, PointCloud, TriangleSoup};
+pub use winding::WindingField;
