@@ -72,6 +72,8 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
         ("off that claims 4 G", b"OFF\n4000000000 4000000000 0\n0 0 0\n".to_vec()),
         ("off of a face of 4 G", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n".to_vec()),
         ("xyz that claims 4 G", b"4000000000\n0 0 0\n".to_vec()),
+        ("archive that claims 4 G", lying_archive(4_000_000_000, 4)),
+        ("archive that claims all", lying_archive(u64::MAX, u64::MAX)),
         ("dense xyz", b"0 0 0\n".repeat(50_000)),
         ("dense xyz with normals", b"0 0 0 1 0 0\n".repeat(50_000)),
         ("dense obj", [b"v 0 0 0\n".repeat(50_000), b"f 1 1 1\n".repeat(50_000)].concat()),
@@ -99,6 +101,21 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
             ply("ascii", &format!("element a 1\n{}", "property char a\n".repeat(20_000)), b""),
         ),
     ]
+}
+
+/// An archive without files whose directory claims `count` of them in `size` bytes (ZIP64).
+fn lying_archive(count: u64, size: u64) -> Vec<u8> {
+    let mut bytes = b"PK\x03\x04".to_vec();
+    let directory = bytes.len() as u64;
+    bytes.extend(b"PK\x06\x06");
+    bytes.extend(44_u64.to_le_bytes());
+    bytes.extend([45, 0, 45, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+    [count, count, size, 0].iter().for_each(|field| bytes.extend(field.to_le_bytes()));
+    bytes.extend(b"PK\x06\x07\0\0\0\0");
+    bytes.extend(directory.to_le_bytes());
+    bytes.extend([1, 0, 0, 0]);
+    bytes.extend(b"PK\x05\x06\0\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\xff\0\0");
+    bytes
 }
 
 #[test]

@@ -31,21 +31,20 @@ pub(super) fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
 }
 
 /// Reads the root model and those that it names, and so on, each once.
-fn read_parts(package: &mut Package, root: String) -> Result<Vec<Part>, ReadError> {
-    let mut parts = Vec::new();
-    let mut numbers = FxHashMap::from_iter([(root.clone(), 0)]);
-    let mut names = vec![root];
-    while let Some(name) = names.get(parts.len()) {
-        let model = Model::read(package.unpack(name)?, name)?;
+fn read_parts(package: &mut Package, root: usize) -> Result<Vec<Part>, ReadError> {
+    let mut parts: Vec<Part> = Vec::new();
+    let mut places = vec![root];
+    let mut numbers = FxHashMap::from_iter([(root, 0)]);
+    while let Some(&place) = places.get(parts.len()) {
+        let name = package.name(place);
+        let model = Model::read(package.unpack(place)?, &name)?;
         let mut links = Vec::with_capacity(model.paths.len());
         for path in &model.paths {
-            let path = package.find(path)?;
-            let next = names.len();
-            let number = *numbers.entry(path.clone()).or_insert(next);
-            if number == next {
-                names.push(path);
-            }
-            links.push(number);
+            let place = package.find(path)?;
+            links.push(*numbers.entry(place).or_insert_with(|| {
+                places.push(place);
+                places.len() - 1
+            }));
         }
         parts.push(Part { model, links });
     }

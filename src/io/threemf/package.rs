@@ -3,6 +3,7 @@ use super::error;
 use super::xml::Events;
 use crate::io::ReadError;
 use quick_xml::events::Event;
+use rustc_hash::FxHashMap;
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 use zip::ZipArchive;
 
@@ -18,6 +19,8 @@ const USUAL_MODEL: &str = "3D/3dmodel.model";
 
 pub(super) struct Package<'a> {
     archive: ZipArchive<Cursor<&'a [u8]>>,
+    /// Places of the files in the archive by name, in lower case: letter case does not count in OPC.
+    places: FxHashMap<String, usize>,
     /// Bytes that may still be unpacked.
     left: u64,
 }
@@ -26,35 +29,40 @@ impl<'a> Package<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Package<'a>, ReadError> {
         let archive = ZipArchive::new(Cursor::new(bytes))
             .map_err(|cause| error(0, format!("a whole ZIP archive, found one that fails with: {cause}")))?;
-        Ok(Package { archive, left: UNPACKED_ANYWAY + UNPACKED_PER_BYTE * bytes.len() as u64 })
+        let names = archive.file_names().enumerate();
+        let places = names.map(|(place, name)| (name.to_ascii_lowercase(), place)).collect();
+        Ok(Package { archive, places, left: UNPACKED_ANYWAY + UNPACKED_PER_BYTE * bytes.len() as u64 })
     }
 
-    /// The name in the archive of the file that `path` means: letter case and a leading slash do not count.
-    pub fn find(&self, path: &str) -> Result<String, ReadError> {
-        let path = path.trim_start_matches('/');
-        let exact = self.archive.index_for_name(path).map(|_| path);
-        let found = exact.or_else(|| self.archive.file_names().find(|name| name.eq_ignore_ascii_case(path)));
-        found
-            .map(str::to_owned)
-            .ok_or_else(|| error(0, format!("a file '{path}' in the archive, found none")))
+    /// The place in the archive of the file that `path` means.
+    pub fn find(&self, path: &str) -> Result<usize, ReadError> {
+        let name = path.trim_start_matches('/');
+        let place = self.places.get(&name.to_ascii_lowercase());
+        place.copied().ok_or_else(|| error(0, format!("a file '{name}' in the archive, found none")))
     }
 
-    /// The model that the package is about.
-    pub fn root_model(&mut self) -> Result<String, ReadError> {
+    /// The place of the model that the package is about.
+    pub fn root_model(&mut self) -> Result<usize, ReadError> {
         let related = match self.find(RELATIONSHIPS) {
-            Ok(name) => model_target(self.unpack(&name)?),
+            Ok(place) => model_target(self.unpack(place)?),
             Err(_) => None,
         };
-        if let Some(name) = related.and_then(|target| self.find(&target).ok()) {
-            return Ok(name);
+        match related.map(|target| self.find(&target)) {
+            Some(Ok(place)) => Ok(place),
+            _ => self.find(USUAL_MODEL),
         }
-        self.find(USUAL_MODEL)
     }
 
-    /// The content of the file `name`.
-    pub fn unpack(&mut self, name: &str) -> Result<impl BufRead + '_, ReadError> {
+    /// The name of the file at `place`, for messages.
+    pub fn name(&self, place: usize) -> String {
+        self.archive.name_for_index(place).unwrap_or_default().to_owned()
+    }
+
+    /// The content of the file at `place`.
+    pub fn unpack(&mut self, place: usize) -> Result<impl BufRead + '_, ReadError> {
+        let name = self.name(place);
         let left = &mut self.left;
-        let file = self.archive.by_name(name);
+        let file = self.archive.by_index(place);
         let file = file.map_err(|cause| error(0, format!("a readable file '{name}', found: {cause}")))?;
         Ok(BufReader::new(Bounded { file, left }))
     }
