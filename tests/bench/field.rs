@@ -9,7 +9,10 @@ mod common;
 fn shapes() -> Vec<(String, Shape)> {
     let soups = [(100, 40), (400, 160)].map(|(nu, nv)| common::torus(1.0, 0.4, nu, nv));
     let named = |kind: &str, shape: Shape| (format!("{kind} {}", shape.len()), shape);
-    soups.into_iter().flat_map(|s| [named("cloud", common::barycentre_cloud(&s, 1).into()), named("soup", s.into())]).collect()
+    soups
+        .into_iter()
+        .flat_map(|s| [named("cloud", common::barycentre_cloud(&s, 1).into()), named("soup", s.into())])
+        .collect()
 }
 
 fn build(criterion: &mut Criterion) {

@@ -19,7 +19,8 @@ fn main() {
     let Geometry::Soup(soup) = io::read(&bytes).expect("the model is understood").geometry else {
         panic!("{model} has no triangles");
     };
-    let shape = if rest.iter().any(|a| a == "cloud") { Shape::from(barycentres(&soup)) } else { Shape::from(soup) };
+    let shape =
+        if rest.iter().any(|a| a == "cloud") { Shape::from(barycentres(&soup)) } else { Shape::from(soup) };
     let queries = read_points(queries);
 
     let mut builds = Vec::new();
@@ -38,7 +39,8 @@ fn main() {
     let start = Instant::now();
     let inside = field.contains(&queries, &Silent).expect("nothing cancels");
     let classification = start.elapsed().as_secs_f64();
-    std::fs::write(values, result.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>()).expect("values are written");
+    std::fs::write(values, result.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>())
+        .expect("values are written");
     println!(
         "{{\"elements\": {}, \"build\": {}, \"evaluation\": {evaluation}, \"classification\": {classification}, \"inside\": {}, \"bytes\": {}}}",
         shape.len(),
