@@ -4,5 +4,7 @@
 
 pub mod data;
 pub mod math;
+#[cfg(target_arch = "wasm32")]
+pub mod wasm;
 
 pub use data::{Lattice, OrientedCloud, PointCloud, TriangleSoup};
