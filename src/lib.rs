@@ -2,9 +2,14 @@
 //! duplicates and self-intersections, and point clouds.
 #![deny(unsafe_code)]
 
+pub mod bvh;
 pub mod data;
+pub mod estimate;
 pub mod math;
+pub mod treecode;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;
+pub mod winding;
 
 pub use data::{Lattice, OrientedCloud, PointCloud, TriangleSoup};
+pub use winding::WindingField;
