@@ -1,7 +1,7 @@
 //! Typed arrays to vectors and back, always as copies: the memory of wasm moves when it grows.
 use super::failure::Failure;
 use crate::math::{Aabb, Vec3};
-use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Function, Reflect, Uint8Array, Uint32Array};
 use wasm_bindgen::{JsCast, JsValue};
 
 /// Numbers copied at a time: enough to amortise a call into JavaScript, little on the stack.
@@ -83,9 +83,8 @@ pub fn triangles_from(indices: Option<&Uint32Array>, vertices: usize) -> Result<
 /// A new array that lies in JavaScript's memory, or `OutOfMemory`.
 fn new_array(constructor: &str, length: usize, bytes: usize) -> Result<JsValue, Failure> {
     let failed = |_| Failure::out_of_memory(length.saturating_mul(bytes));
-    let class = js_sys::Reflect::get(&js_sys::global(), &constructor.into()).map_err(failed)?;
-    let arguments = js_sys::Array::of1(&(length as f64).into());
-    js_sys::Reflect::construct(class.unchecked_ref(), &arguments).map_err(failed)
+    let class: Function = Reflect::get(&js_sys::global(), &constructor.into()).map_err(failed)?.unchecked_into();
+    Reflect::construct(&class, &js_sys::Array::of1(&(length as f64).into())).map_err(failed)
 }
 
 pub fn bytes_to(bytes: &[u8]) -> Result<Uint8Array, Failure> {

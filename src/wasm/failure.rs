@@ -1,5 +1,8 @@
 //! Errors as JavaScript sees them: `{ code, message, details }`, of which the client makes a `WindingError`.
-use crate::data::{Cancelled, CloudError, LatticeError, SoupError};
+use crate::data::{Cancelled, CloudError, LatticeError, OutOfMemory, SoupError};
+use crate::estimate::EstimateError;
+use crate::io::{Location, ReadError};
+use crate::winding::FieldError;
 use js_sys::{Object, Reflect};
 use wasm_bindgen::JsValue;
 
@@ -55,6 +58,55 @@ impl From<Failure> for JsValue {
 impl From<Cancelled> for Failure {
     fn from(cancelled: Cancelled) -> Failure {
         Failure::new("Aborted", cancelled)
+    }
+}
+
+impl From<OutOfMemory> for Failure {
+    fn from(error: OutOfMemory) -> Failure {
+        Failure::new("OutOfMemory", &error).with([("bytes", (error.bytes as f64).into())])
+    }
+}
+
+impl From<FieldError> for Failure {
+    fn from(error: FieldError) -> Failure {
+        match error {
+            FieldError::Cancelled(cancelled) => cancelled.into(),
+            FieldError::OutOfMemory(out_of_memory) => out_of_memory.into(),
+        }
+    }
+}
+
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Failure {
+        let message = error.to_string();
+        match error {
+            ReadError::Parse { format, at, expected } => {
+                let at = match at {
+                    Location::Byte(offset) => ("byte", offset.into()),
+                    Location::Line(line) => ("line", line.into()),
+                };
+                Failure::new("ParseError", message).with([
+                    ("format", format.name().into()),
+                    at,
+                    ("expected", expected.into()),
+                ])
+            }
+            ReadError::EmptyInput { .. } => Failure::new("EmptyInput", message),
+            ReadError::UnknownFormat { .. } => Failure::new("UnknownFormat", message),
+        }
+    }
+}
+
+impl From<EstimateError> for Failure {
+    fn from(error: EstimateError) -> Failure {
+        match error {
+            EstimateError::Cancelled(cancelled) => cancelled.into(),
+            EstimateError::Invalid(invalid) => invalid.into(),
+            EstimateError::Empty => Failure::new("EmptyInput", &error),
+            EstimateError::MissingNormals { points } => {
+                Failure::new("MissingNormals", &error).with([("points", points.into())])
+            }
+        }
     }
 }
 

@@ -3,6 +3,7 @@ use crate::data::{Cancelled, Monitor};
 use js_sys::Function;
 use std::{
     cell::RefCell,
+    panic::AssertUnwindSafe,
     sync::atomic::{AtomicU32, Ordering},
 };
 use wasm_bindgen::prelude::*;
@@ -12,7 +13,8 @@ use wasm_bindgen::prelude::*;
 pub struct Job {
     /// Boxed: its address stays. A page that shares this memory stores 1 to cancel, and 0 before the next call.
     cancelled: Box<AtomicU32>,
-    progress: RefCell<Option<Function>>,
+    /// A panic during a call leaves at most an old function here: nothing is half done.
+    progress: AssertUnwindSafe<RefCell<Option<Function>>>,
 }
 
 #[wasm_bindgen]
@@ -20,7 +22,7 @@ impl Job {
     #[wasm_bindgen(constructor)]
     #[allow(clippy::new_without_default)]
     pub fn new() -> Job {
-        Job { cancelled: Box::default(), progress: RefCell::default() }
+        Job { cancelled: Box::default(), progress: AssertUnwindSafe::default() }
     }
 
     /// Byte address of the cancel flag, an aligned 32-bit integer in the memory of this instance.
