@@ -5,6 +5,7 @@
 pub mod bvh;
 pub mod data;
 pub mod estimate;
+pub mod io;
 pub mod math;
 pub mod treecode;
 #[cfg(target_arch = "wasm32")]
