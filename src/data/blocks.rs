@@ -1,10 +1,10 @@
 use super::{Cancelled, Monitor};
 use rayon::prelude::*;
 
-/// Samples between two reports to the monitor: some 10 ms of work on one thread.
-const SAMPLES_PER_REPORT: usize = 16_384;
+/// Samples between two reports to the monitor: some 5 ms of work on one thread.
+const SAMPLES_PER_REPORT: usize = 4096;
 /// Samples that one task takes: enough to make the cost of a task negligible.
-const SAMPLES_PER_TASK: usize = 128;
+const SAMPLES_PER_TASK: usize = 64;
 
 /// A large buffer could not be had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -2,6 +2,10 @@
 use crate::data::{Cancelled, CloudError, LatticeError, OutOfMemory, SoupError};
 use crate::estimate::EstimateError;
 use crate::io::{Location, ReadError};
+use crate::levelset::TraceError;
+use crate::slice::SliceError;
+use crate::solid::VoxelError;
+use crate::surface::SurfaceError;
 use crate::winding::FieldError;
 use js_sys::{Object, Reflect};
 use wasm_bindgen::JsValue;
@@ -70,8 +74,40 @@ impl From<OutOfMemory> for Failure {
 impl From<FieldError> for Failure {
     fn from(error: FieldError) -> Failure {
         match error {
+            FieldError::Lattice(lattice) => lattice.into(),
             FieldError::Cancelled(cancelled) => cancelled.into(),
             FieldError::OutOfMemory(out_of_memory) => out_of_memory.into(),
+        }
+    }
+}
+
+impl From<VoxelError> for Failure {
+    fn from(error: VoxelError) -> Failure {
+        match error {
+            VoxelError::Lattice(lattice) => lattice.into(),
+            VoxelError::Cancelled(cancelled) => cancelled.into(),
+            VoxelError::OutOfMemory(out_of_memory) => out_of_memory.into(),
+            VoxelError::BadThreshold(_) => Failure::invalid(&error),
+        }
+    }
+}
+
+impl From<SliceError> for Failure {
+    fn from(error: SliceError) -> Failure {
+        match error {
+            SliceError::Plan(plan) => Failure::invalid(plan),
+            SliceError::Lattice(lattice) => lattice.into(),
+            SliceError::Cancelled(cancelled) => cancelled.into(),
+        }
+    }
+}
+
+impl From<SurfaceError> for Failure {
+    fn from(error: SurfaceError) -> Failure {
+        match error {
+            SurfaceError::Lattice(lattice) => lattice.into(),
+            SurfaceError::Trace(TraceError::Cancelled(cancelled)) => cancelled.into(),
+            SurfaceError::Trace(TraceError::TooFine) | SurfaceError::BadLevel(_) => Failure::invalid(&error),
         }
     }
 }

@@ -63,7 +63,8 @@ impl Handle {
     ///
     /// # Errors
     /// If and only if the arrays are no soup.
-    pub fn soup(positions: JsValue, indices: Option<Uint32Array>) -> Result<Handle, JsValue> {
+    #[wasm_bindgen(js_name = soup)]
+    pub fn from_triangles(positions: JsValue, indices: Option<Uint32Array>) -> Result<Handle, JsValue> {
         let positions = points_from("positions", &positions)?;
         let triangles = triangles_from(indices.as_ref(), positions.len())?;
         let soup = TriangleSoup::new(positions, triangles).map_err(Failure::from)?;
@@ -78,7 +79,8 @@ impl Handle {
     ///
     /// # Errors
     /// If and only if the arrays are no cloud.
-    pub fn cloud(
+    #[wasm_bindgen(js_name = cloud)]
+    pub fn from_points(
         points: JsValue,
         normals: JsValue,
         areas: JsValue,
@@ -235,10 +237,10 @@ impl Handle {
         Ok(&self.field.insert(field).1)
     }
 
-    pub(super) fn soup_or_failure(&self) -> Result<&TriangleSoup, Failure> {
+    pub(super) fn soup(&self) -> Option<&TriangleSoup> {
         match &self.source {
-            Source::Soup(soup) => Ok(soup),
-            Source::Cloud { .. } => Err(Failure::invalid("a cloud has no edges: only soups have")),
+            Source::Soup(soup) => Some(soup),
+            Source::Cloud { .. } => None,
         }
     }
 

@@ -9,6 +9,7 @@ mod handle;
 mod job;
 mod options;
 mod queries;
+mod results;
 
 pub use handle::Handle;
 pub use job::Job;

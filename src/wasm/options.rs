@@ -1,8 +1,11 @@
 //! Options as JavaScript gives them, to what the core takes.
 use super::failure::{Failure, object};
-use crate::data::{Layer, Polygon, Ring, Warning};
+use crate::data::{Lattice, Layer, Polygon, Ring, Warning};
 use crate::io::{self, CloudFormat, MeshFormat};
-use crate::math::Vec2;
+use crate::math::{Aabb, Vec2};
+use crate::slice::{LayerPlan, SampleAt, SliceConfig};
+use crate::solid::{VoxelConfig, VoxelMethod};
+use crate::surface::SurfaceConfig;
 use crate::winding::{Accuracy, FieldConfig, Order};
 use serde::{Deserialize, de::DeserializeOwned};
 use wasm_bindgen::JsValue;
@@ -93,6 +96,143 @@ impl AccuracyOptions {
             Some(0) => Err(Failure::invalid("leafSize 0: 1 or more is needed")),
             size => Ok(size.map(|leaf_size| FieldConfig { leaf_size })),
         }
+    }
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum VoxelFormat {
+    #[default]
+    Bytes,
+    Bits,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum VoxelMethodName {
+    Lattice,
+    Continuation,
+}
+
+/// Which voxels are wanted, and how.
+#[derive(Default, Deserialize)]
+pub struct VoxelOptions {
+    resolution: Option<usize>,
+    spacing: Option<f64>,
+    counts: Option<[usize; 3]>,
+    threshold: Option<f64>,
+    method: Option<VoxelMethodName>,
+    #[serde(default)]
+    pub format: VoxelFormat,
+    #[serde(default)]
+    pub surface: bool,
+}
+
+impl VoxelOptions {
+    const RESOLUTION: usize = 64;
+
+    pub fn lattice(&self, bounds: Aabb) -> Result<Lattice, Failure> {
+        let lattice = match (self.resolution, self.spacing, self.counts) {
+            (resolution, None, None) => {
+                Lattice::with_resolution(bounds, resolution.unwrap_or(VoxelOptions::RESOLUTION))
+            }
+            (None, Some(spacing), None) => Lattice::with_spacing(bounds, spacing),
+            (None, None, Some(counts)) => Lattice::with_counts(bounds, counts),
+            _ => return Err(Failure::invalid("give only one of resolution, spacing and counts")),
+        };
+        Ok(lattice?)
+    }
+
+    pub fn config(&self) -> VoxelConfig {
+        let default = VoxelConfig::default();
+        let method = self.method.map(|method| match method {
+            VoxelMethodName::Lattice => VoxelMethod::Lattice,
+            VoxelMethodName::Continuation => VoxelMethod::Continuation,
+        });
+        VoxelConfig {
+            threshold: self.threshold.unwrap_or(default.threshold),
+            method: method.unwrap_or(default.method),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum SampleAtName {
+    Bottom,
+    Middle,
+    Top,
+}
+
+/// Which layers are wanted, and how fine.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct SliceOptions {
+    layer_height: Option<f64>,
+    first_layer_height: Option<f64>,
+    sample_at: Option<SampleAtName>,
+    heights: Option<Vec<f64>>,
+    tolerance: Option<f64>,
+    resolution: Option<usize>,
+}
+
+impl SliceOptions {
+    pub fn config(&self) -> SliceConfig {
+        let resolution = self.resolution.unwrap_or(SliceConfig::default().resolution);
+        SliceConfig { resolution, spacing: self.tolerance }
+    }
+
+    pub fn plan(self) -> LayerPlan {
+        let default = LayerPlan::default();
+        let sample_at = self.sample_at.map(|sample_at| match sample_at {
+            SampleAtName::Bottom => SampleAt::Bottom,
+            SampleAtName::Middle => SampleAt::Middle,
+            SampleAtName::Top => SampleAt::Top,
+        });
+        LayerPlan {
+            layer_height: self.layer_height.unwrap_or(default.layer_height),
+            first_layer_height: self.first_layer_height,
+            sample_at: sample_at.unwrap_or_default(),
+            heights: self.heights,
+        }
+    }
+}
+
+/// How fine a surface is wanted, and at which winding number.
+#[derive(Default, Deserialize)]
+pub struct SurfaceOptions {
+    resolution: Option<usize>,
+    spacing: Option<f64>,
+    level: Option<f64>,
+}
+
+impl SurfaceOptions {
+    pub fn config(&self) -> SurfaceConfig {
+        let default = SurfaceConfig::default();
+        SurfaceConfig {
+            resolution: self.resolution.unwrap_or(default.resolution),
+            spacing: self.spacing,
+            level: self.level.unwrap_or(default.level),
+        }
+    }
+}
+
+/// Which plane is wanted, and how fine.
+#[derive(Default, Deserialize)]
+pub struct HeatMapOptions {
+    z: Option<f64>,
+    resolution: Option<usize>,
+}
+
+impl HeatMapOptions {
+    const RESOLUTION: usize = 128;
+
+    pub fn z(&self) -> Result<f64, Failure> {
+        self.z.filter(|z| z.is_finite()).ok_or_else(|| Failure::invalid("z must be given, and finite"))
+    }
+
+    pub fn resolution(&self) -> usize {
+        self.resolution.unwrap_or(HeatMapOptions::RESOLUTION)
     }
 }
 

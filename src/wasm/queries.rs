@@ -3,14 +3,16 @@ use super::convert::{bytes_to, numbers_to, points_from};
 use super::failure::{Failure, object};
 use super::handle::Handle;
 use super::job::Job;
-use super::options::{self, AccuracyOptions};
+use super::options::{self, AccuracyOptions, HeatMapOptions, SliceOptions, SurfaceOptions, VoxelOptions};
+use super::results;
 use crate::winding::Accuracy;
-use js_sys::{Date, Float64Array, Object, Uint8Array};
+use crate::{check, slice, solid, surface};
+use js_sys::{Array, Date, Float64Array, Object, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
 impl Handle {
-    /// Builds the tree: `{ milliseconds, bytes, method, … }`.
+    /// Builds the tree: `{ milliseconds, bytes, method, components, boundaryEdges, caps }`.
     ///
     /// # Errors
     /// If and only if a cloud has no normals, an option is out of range or the call is aborted.
@@ -20,11 +22,20 @@ impl Handle {
         let config = options.field_config()?;
         let field = self.field(config, job)?;
         options.accuracy(Accuracy::of_paper(field.shape()))?;
-        let report = field.report();
+        let (bytes, method) = (field.report().bytes, field.report().method);
+        let milliseconds = Date::now() - start;
+        let (components, edges) = match self.soup() {
+            Some(soup) => (check::components(soup), check::boundary_edges(soup).len()),
+            None => (0, 0),
+        };
         Ok(object([
-            ("milliseconds", (Date::now() - start).into()),
-            ("bytes", report.bytes.into()),
-            ("method", report.method.into()),
+            ("milliseconds", milliseconds.into()),
+            ("bytes", bytes.into()),
+            ("method", method.into()),
+            ("components", components.into()),
+            ("boundaryEdges", edges.into()),
+            // This method closes no openings.
+            ("caps", 0.into()),
         ]))
     }
 
@@ -56,5 +67,62 @@ impl Handle {
         let inside = self.field(None, job)?.contains(&points, job).map_err(Failure::from)?;
         let bytes: Vec<u8> = inside.into_iter().map(u8::from).collect();
         Ok(bytes_to(&bytes)?)
+    }
+
+    /// Which cells of a lattice are inside.
+    ///
+    /// # Errors
+    /// As [`Handle::winding_numbers`].
+    pub fn voxelize(&mut self, options: JsValue, job: &Job) -> Result<Object, JsValue> {
+        let options: VoxelOptions = options::from_js(options)?;
+        let lattice = options.lattice(self.bounds())?;
+        let field = self.field(None, job)?;
+        let voxels = solid::voxelize(field, &lattice, &options.config(), job).map_err(Failure::from)?;
+        Ok(results::voxels_to(&voxels, options.format, options.surface)?)
+    }
+
+    /// Layers of closed polygons.
+    ///
+    /// # Errors
+    /// As [`Handle::winding_numbers`].
+    pub fn slice(&mut self, options: JsValue, job: &Job) -> Result<Array, JsValue> {
+        let options: SliceOptions = options::from_js(options)?;
+        let config = options.config();
+        let field = self.field(None, job)?;
+        let layers = slice::slice(field, &options.plan(), &config, job).map_err(Failure::from)?;
+        Ok(results::layers_to(&layers)?)
+    }
+
+    /// The closed surface where w equals a level.
+    ///
+    /// # Errors
+    /// As [`Handle::winding_numbers`].
+    pub fn surface(&mut self, options: JsValue, job: &Job) -> Result<Object, JsValue> {
+        let options: SurfaceOptions = options::from_js(options)?;
+        let field = self.field(None, job)?;
+        let mesh = surface::extract(field, &options.config(), job).map_err(Failure::from)?;
+        Ok(results::mesh_to(&mesh)?)
+    }
+
+    /// Winding numbers over a plane.
+    ///
+    /// # Errors
+    /// As [`Handle::winding_numbers`].
+    #[wasm_bindgen(js_name = heatMap)]
+    pub fn heat_map(&mut self, options: JsValue, job: &Job) -> Result<Object, JsValue> {
+        let options: HeatMapOptions = options::from_js(options)?;
+        let z = options.z()?;
+        let map = slice::heat_map(self.field(None, job)?, z, options.resolution(), job).map_err(Failure::from)?;
+        Ok(results::heat_map_to(&map)?)
+    }
+
+    /// The edges along which a soup is open.
+    ///
+    /// # Errors
+    /// If and only if this is a cloud.
+    #[wasm_bindgen(js_name = boundaryEdges)]
+    pub fn boundary_edges(&self) -> Result<Object, JsValue> {
+        let soup = self.soup().ok_or_else(|| Failure::invalid("a cloud has no edges: only soups have"))?;
+        Ok(results::segments_to(&check::boundary_edges(soup))?)
     }
 }

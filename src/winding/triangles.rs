@@ -135,14 +135,6 @@ impl AngleProduct1 {
 fn reciprocal_power_of_two(x: f64x4) -> f64x4 {
     const EXPONENT: i64 = 0x7ff0_0000_0000_0000;
     const TWICE_BIAS: i64 = 0x7fe0_0000_0000_0000;
-    let exponent: i64x4 = bits(x) & i64x4::splat(EXPONENT);
-    from_bits(i64x4::splat(TWICE_BIAS) - exponent)
-}
-
-fn bits(x: f64x4) -> i64x4 {
-    i64x4::from(x.to_array().map(|v| v.to_bits() as i64))
-}
-
-fn from_bits(x: i64x4) -> f64x4 {
-    f64x4::from(x.to_array().map(|v| f64::from_bits(v as u64)))
+    let bits: i64x4 = wide::bytemuck::cast(x);
+    wide::bytemuck::cast(i64x4::splat(TWICE_BIAS) - (bits & i64x4::splat(EXPONENT)))
 }
