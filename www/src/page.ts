@@ -1,0 +1,35 @@
+import { init } from 'fast-winding';
+import type { FastWinding } from 'fast-winding';
+import { Jobs } from './jobs.ts';
+import { initialState } from './state.ts';
+import type { State } from './state.ts';
+import { Store } from './store.ts';
+
+/** Where a model comes from; read again when the engine had to be replaced. */
+export interface Source {
+  readonly name: string;
+  read(signal: AbortSignal): Promise<Uint8Array>;
+}
+
+/** What every action works with. */
+export interface Page {
+  readonly store: Store<State>;
+  readonly jobs: Jobs;
+  engine: FastWinding;
+  /** Of the model that is shown. */
+  source?: Source;
+}
+
+/** Starts the engine; rejects when the browser cannot run it at all. */
+export async function startPage(store: Store<State> = new Store(initialState())): Promise<Page> {
+  const engine = await init();
+  store.set({ info: engine.info });
+  return { store, jobs: new Jobs(store), engine };
+}
+
+/** Ends the engine with all its handles and starts another. */
+export async function restartEngine(page: Page): Promise<void> {
+  page.engine.dispose();
+  page.engine = await init();
+  page.store.set({ info: page.engine.info });
+}
