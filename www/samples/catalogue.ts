@@ -8,12 +8,12 @@ export interface Sample {
 }
 
 export const SAMPLES = [
-  { file: 'bunny.stl', title: 'Stanford bunny, as scanned', note: 'Open underneath: five holes' },
-  { file: 'dragon.ply', title: 'Stanford dragon', note: 'Decimated until it tore' },
-  { file: 'head.ply', title: 'Head, 3D scan', note: 'A bust, open at the bottom' },
-  { file: 'teapot.obj', title: 'Utah teapot', note: 'A soup: parts that cross and do not join' },
-  { file: 'dragon-points.ply', title: 'Dragon, points with normals', note: 'No triangles at all' },
-  { file: 'bunny-points.xyz', title: 'Bunny, points only', note: 'No triangles and no normals' },
+  { file: 'bunny.stl', title: 'Stanford bunny, as scanned', note: 'A scan with five holes underneath' },
+  { file: 'dragon.ply', title: 'Stanford dragon', note: 'Fine scales and thin horns' },
+  { file: 'head.ply', title: 'Bust', note: 'A hollow shell and a few stray triangles' },
+  { file: 'teapot.obj', title: 'Utah teapot', note: 'A soup: open parts that cross and do not join' },
+  { file: 'dragon-points.ply', title: 'Dragon, points with normals', note: 'No triangles: the surface is made from w alone' },
+  { file: 'bunny-points.xyz', title: 'Bunny, points only', note: 'No triangles, and no normals until they are estimated' },
 ] as const satisfies readonly Sample[];
 
 export type SampleFile = (typeof SAMPLES)[number]['file'];

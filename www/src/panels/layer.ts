@@ -67,5 +67,5 @@ function contours(outer: number, holes: number): string {
 /** The same number of decimals at every height of a model, so that the figure does not jump. */
 function fixedHeight(z: number, bounds: Parameters<typeof diagonal>[0]): string {
   const decimals = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(diagonal(bounds) || 1))));
-  return z.toFixed(decimals);
+  return z.toFixed(decimals).replace('-', '−');
 }

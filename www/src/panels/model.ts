@@ -42,6 +42,9 @@ export function modelControls(page: Page): void {
       menu.prepend(ownFile);
     } else ownFile.remove();
     menu.value = isSample ? model.name : '';
+    const note = SAMPLES.find(({ file }) => file === model.name)?.note;
+    byId('sample-note').hidden = !note;
+    byId('sample-note').textContent = note ?? '';
   });
   // A sample that failed to open leaves the menu on what is shown.
   page.store.on(['problem'], ({ model }) => {

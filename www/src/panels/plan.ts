@@ -17,7 +17,7 @@ const FLATTEST = 2;
 export function planPanel(store: Store<State>): void {
   const svg = byId<SVGSVGElement>('plan-svg');
   const plan = byId('plan');
-  plan.insertAdjacentHTML('beforeend', '<div class="plan-ruler" aria-hidden="true"></div>');
+  plan.insertAdjacentHTML('beforeend', '<div class="plan-ruler" aria-hidden="true"><span></span><i></i></div>');
   const ruler = plan.querySelector<HTMLElement>('.plan-ruler')!;
 
   const showRuler = (): void => {
@@ -26,8 +26,8 @@ export function planPanel(store: Store<State>): void {
     const { width } = windowOf(model.bounds);
     const pixelsPerMillimetre = plan.clientWidth / width;
     const length = niceBelow(width / 4);
-    ruler.style.width = `${length * pixelsPerMillimetre}px`;
-    ruler.textContent = `${significant(length)} mm`;
+    ruler.querySelector('i')!.style.width = `${length * pixelsPerMillimetre}px`;
+    ruler.querySelector('span')!.textContent = `${significant(length)} mm`;
   };
   new ResizeObserver(showRuler).observe(plan);
 

@@ -66,7 +66,7 @@ function describe({ model, layer, voxels, surface }: State, item: Item): { isThe
 
 function legendOfBackFaces(): HTMLElement {
   const row = document.createElement('li');
-  row.className = 'check hint';
+  row.className = 'check hint behind';
   row.innerHTML = '<span class="swatch" style="--swatch: var(--view-back)"></span><span>seen from behind</span>';
   return row;
 }

@@ -31,6 +31,7 @@ export function voxelPanel(page: Page): void {
           ]
         : [],
     );
+    if (voxels) reveal('voxel-facts');
   });
   enableWhenUsable(page, byId<HTMLButtonElement>('voxelize'));
 }
@@ -60,6 +61,7 @@ export function surfacePanel(page: Page): void {
           ]
         : [],
     );
+    if (surface) reveal('surface-facts');
   });
   enableWhenUsable(page, byId<HTMLButtonElement>('surface'));
 }
@@ -84,6 +86,11 @@ function cells({ model }: State, resolution: number): string {
   const cell = Math.max(...sides) / resolution;
   const counts = sides.map((side) => Math.max(1, Math.ceil(side / cell - 1e-9)));
   return `${counts.map(count).join(' × ')} cells of ${cell.toPrecision(3)} mm`;
+}
+
+/** Scrolls figures into sight where the panels have their own column; on a narrow page the view is what to look at. */
+function reveal(id: string): void {
+  if (matchMedia('(min-width: 47.5rem)').matches) byId(id).scrollIntoView({ block: 'nearest' });
 }
 
 function enableWhenUsable({ store }: Page, button: HTMLButtonElement): void {

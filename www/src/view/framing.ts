@@ -17,7 +17,7 @@ const DIRECTIONS: Record<Direction, Vector3> = {
   side: new Vector3(1, 0, 0),
 };
 /** Room left around the box. */
-const MARGIN = 1.12;
+const MARGIN = 1.07;
 
 export interface CameraPlace {
   readonly position: Vector3;

@@ -13,7 +13,7 @@ import { contourLines, heatPane, planePane } from './layer.ts';
 import { thickLines } from './lines.ts';
 import { twoSidedMesh } from './mesh.ts';
 import { Part } from './part.ts';
-import { normalsOf, pointsOf, pointSpacing } from './points.ts';
+import { normalsOf, pointsOf } from './points.ts';
 import { Stage } from './stage.ts';
 
 const BOUNDARY_PIXELS = 2.5;
@@ -86,7 +86,7 @@ export class View {
     this.#parts.floor.replace(lines);
     const size = diagonal(bounds);
     if (indices) this.#parts.model.replace(...twoSidedMesh({ positions, indices }, '--view-front', this.#cut));
-    else this.#parts.model.replace(pointsOf(positions, normals, pointSpacing(positions.length / 3, size), this.#cut));
+    else this.#parts.model.replace(pointsOf(positions, normals, size, this.#cut));
     this.#parts.boundary.replace(...(boundary.length > 0 ? [thickLines(boundary, '--view-edge', BOUNDARY_PIXELS, this.#cut)] : []));
     this.#parts.normals.replace(...(normals ? [normalsOf(positions, normals, size, this.#cut)] : []));
     this.#stage.draw();
