@@ -23,8 +23,8 @@ export function planPanel(store: Store<State>): void {
   const showRuler = (): void => {
     const { model } = store.state;
     if (!model) return;
-    const { width } = windowOf(model.bounds);
-    const pixelsPerMillimetre = plan.clientWidth / width;
+    const { width, height } = windowOf(model.bounds);
+    const pixelsPerMillimetre = Math.min(plan.clientWidth / width, plan.clientHeight / height);
     const length = niceBelow(width / 4);
     ruler.querySelector('i')!.style.width = `${length * pixelsPerMillimetre}px`;
     ruler.querySelector('span')!.textContent = `${significant(length)} mm`;

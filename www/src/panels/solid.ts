@@ -90,7 +90,7 @@ function cells({ model }: State, resolution: number): string {
 
 /** Scrolls figures into sight where the panels have their own column; on a narrow page the view is what to look at. */
 function reveal(id: string): void {
-  if (matchMedia('(min-width: 47.5rem)').matches) byId(id).scrollIntoView({ block: 'nearest' });
+  if (matchMedia('(min-width: 56rem)').matches) byId(id).scrollIntoView({ block: 'nearest' });
 }
 
 function enableWhenUsable({ store }: Page, button: HTMLButtonElement): void {
