@@ -22,11 +22,11 @@ export class Jobs {
       await this.#running.settled;
     }
     const controller = new AbortController();
-    this.#store.set({ job: { label, stage: '' } });
+    this.#store.set({ job: { label, stage: '', canCancel: true } });
     const result = work({
       signal: controller.signal,
       onProgress: (fraction, stage) => {
-        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction } });
+        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction, canCancel: true } });
       },
     });
     const running = { controller, settled: result.catch(() => undefined) };
@@ -43,6 +43,6 @@ export class Jobs {
     const job = this.#store.state.job;
     if (!job || !this.#running) return;
     this.#running.controller.abort();
-    this.#store.set({ job: { ...job, stage: 'stopping' } });
+    this.#store.set({ job: { ...job, stage: 'stopping', fraction: undefined, canCancel: false } });
   }
 }

@@ -22,12 +22,6 @@ export class Latest<T> {
     this.#timer = setTimeout(() => controller.abort(), Math.max(0, PATIENCE_MILLISECONDS - age));
   }
 
-  /** Forgets what waits and stops what runs. */
-  stop(): void {
-    this.#waiting = undefined;
-    this.#running?.controller.abort();
-  }
-
   async #drain(): Promise<void> {
     while (this.#waiting) {
       const { request } = this.#waiting;

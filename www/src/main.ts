@@ -43,7 +43,7 @@ function startView(): void {
 }
 
 async function startEngine(): Promise<void> {
-  store.set({ job: { label: 'Starting', stage: 'loading the engine' } });
+  store.set({ job: { label: 'Starting', stage: 'loading the engine', canCancel: false } });
   try {
     const page = await startPage(store);
     modelControls(page);

@@ -1,13 +1,17 @@
 import { init } from 'fast-winding';
-import type { FastWinding } from 'fast-winding';
+import type { FastWinding, ReadOptions } from 'fast-winding';
 import { Jobs } from './jobs.ts';
 import { initialState } from './state.ts';
 import type { State } from './state.ts';
 import { Store } from './store.ts';
 
+export type Unit = NonNullable<ReadOptions['unit']>;
+
 /** Where a model comes from; read again when the engine had to be replaced. */
 export interface Source {
   readonly name: string;
+  /** Of the file's numbers, where its format does not say. */
+  readonly unit: Unit;
   read(signal: AbortSignal): Promise<Uint8Array>;
 }
 
@@ -18,6 +22,8 @@ export interface Page {
   engine: FastWinding;
   /** Of the model that is shown. */
   source?: Source;
+  /** Pending while a new engine takes the place of one that died. */
+  revival?: Promise<void>;
 }
 
 /** Starts the engine; rejects when the browser cannot run it at all. */

@@ -44,6 +44,7 @@ export interface Job {
   readonly stage: string;
   /** 0 to 1; undefined while it is not known. */
   readonly fraction?: number;
+  readonly canCancel: boolean;
 }
 
 export const ITEMS = ['model', 'boundary', 'normals', 'layer', 'voxels', 'surface'] as const;

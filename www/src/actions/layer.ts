@@ -1,8 +1,8 @@
 import type { Soup, Cloud } from 'fast-winding';
 import { Latest } from '../latest.ts';
 import type { Page } from '../page.ts';
-import { isAborted, problemOf } from '../problem.ts';
 import { planeHeight } from '../state.ts';
+import { fail } from './fail.ts';
 import { timed } from './timed.ts';
 
 /** Samples of the heat map along its longest side: first a rough one that keeps up with the slider, then a fine one. */
@@ -52,6 +52,6 @@ async function compute(page: Page, { shape, z, layerHeight, heat }: Cut, signal:
       store.set({ heat: map });
     }
   } catch (error) {
-    if (!isAborted(error) && !isStale()) store.set({ problem: problemOf('The layer could not be computed', error) });
+    if (!isStale()) await fail(page, 'The layer could not be computed', error);
   }
 }

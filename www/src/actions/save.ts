@@ -1,7 +1,7 @@
 import type { Mesh } from 'fast-winding';
 import { download, stem } from '../download.ts';
 import type { Page } from '../page.ts';
-import { problemOf } from '../problem.ts';
+import { fail } from './fail.ts';
 
 export async function saveMesh(page: Page, mesh: Mesh, suffix: string): Promise<void> {
   await told(page, async () => {
@@ -36,6 +36,6 @@ async function told(page: Page, save: () => Promise<void>): Promise<void> {
   try {
     await save();
   } catch (error) {
-    page.store.set({ problem: problemOf('The file could not be saved', error) });
+    await fail(page, 'The file could not be saved', error);
   }
 }

@@ -1,9 +1,8 @@
 import type { CallOptions } from 'fast-winding';
 import type { Page } from '../page.ts';
-import { restartEngine } from '../page.ts';
-import { isAborted, isLost, problemOf } from '../problem.ts';
 import type { Item } from '../state.ts';
-import { modelOf, open } from './open.ts';
+import { fail } from './fail.ts';
+import { modelOf } from './load.ts';
 import { timed } from './timed.ts';
 
 export async function makeVoxels(page: Page, resolution: number, threshold: number): Promise<void> {
@@ -36,18 +35,12 @@ export async function orient(page: Page): Promise<void> {
   });
 }
 
-/** Runs a long job; a problem is told, and an engine that died is replaced and the model opened again. */
 async function attempt(page: Page, label: string, failure: string, work: (options: Required<CallOptions>) => Promise<void>): Promise<void> {
   page.store.set({ problem: undefined });
   try {
     await page.jobs.run(label, work);
   } catch (error) {
-    if (isAborted(error)) return;
-    if (isLost(error)) {
-      await restartEngine(page);
-      if (page.source) await open(page, page.source);
-    }
-    page.store.set({ problem: problemOf(failure, error) });
+    await fail(page, failure, error);
   }
 }
 

@@ -8,13 +8,19 @@ export function showJob(store: Store<State>): void {
   const bar = byId<HTMLProgressElement>('job-progress');
   store.on(['job'], ({ job }) => {
     byId('job').hidden = !job;
-    document.body.toggleAttribute('aria-busy', job !== undefined);
+    document.body.setAttribute('aria-busy', String(job !== undefined));
     if (!job) return;
-    byId('job-label').textContent = job.label;
+    byId<HTMLButtonElement>('job-cancel').disabled = !job.canCancel;
+    setText('job-label', job.label);
     byId('job-stage').textContent = job.fraction === undefined ? job.stage : `${job.stage} ${Math.floor(100 * job.fraction)} %`;
     if (job.fraction === undefined) bar.removeAttribute('value');
     else bar.value = job.fraction;
   });
+}
+
+/** Leaves the same text alone, so that it is not announced again. */
+function setText(id: string, text: string): void {
+  if (byId(id).textContent !== text) byId(id).textContent = text;
 }
 
 /** The cancel button, and Escape, which also puts a message away. */

@@ -1,12 +1,22 @@
 import { SAMPLES } from '../../samples/catalogue.ts';
-import { fileSource, open, sampleSource } from '../actions/open.ts';
+import { fileSource, open, reopen, sampleSource } from '../actions/open.ts';
 import { orient } from '../actions/solid.ts';
 import { byId, setFacts } from '../dom.ts';
 import { bytes, count, milliseconds, significant } from '../format.ts';
-import type { Page } from '../page.ts';
+import type { Page, Unit } from '../page.ts';
 import { sentence } from '../problem.ts';
 import type { Model, State } from '../state.ts';
 import type { Store } from '../store.ts';
+
+/** What the numbers of a file may mean, when its format has no unit. */
+const UNITS: readonly (readonly [Unit, string])[] = [
+  ['millimeter', 'millimetres'],
+  ['centimeter', 'centimetres'],
+  ['meter', 'metres'],
+  ['inch', 'inches'],
+  ['foot', 'feet'],
+  ['micron', 'microns'],
+];
 
 /** The facts and warnings of the model; works without an engine. */
 export function showModelFacts(store: Store<State>): void {
@@ -34,8 +44,9 @@ export function modelControls(page: Page): void {
     if (menu.value) void open(page, sampleSource(menu.value));
   });
   const ownFile = new Option('', '');
-  page.store.on(['model'], ({ model }) => {
-    if (!model) return;
+  // Also when a job ends: a sample that was not opened after all leaves the menu on what is shown.
+  page.store.on(['model', 'job'], ({ model, job }) => {
+    if (!model || job) return;
     const isSample = SAMPLES.some(({ file }) => file === model.name);
     if (!isSample) {
       ownFile.textContent = model.name;
@@ -46,9 +57,13 @@ export function modelControls(page: Page): void {
     byId('sample-note').hidden = !note;
     byId('sample-note').textContent = note ?? '';
   });
-  // A sample that failed to open leaves the menu on what is shown.
-  page.store.on(['problem'], ({ model }) => {
-    if (model) menu.value = SAMPLES.some(({ file }) => file === model.name) ? model.name : '';
+  const unit = byId<HTMLSelectElement>('unit');
+  unit.replaceChildren(...UNITS.map(([value, text]) => new Option(text, value)));
+  unit.addEventListener('change', () => void reopen(page, unit.value as Unit));
+  page.store.on(['model', 'job'], ({ model, job }) => {
+    if (!model || job) return;
+    byId('unit-field').hidden = model.shape.format === '3mf';
+    unit.value = page.source?.unit ?? 'millimeter';
   });
 
   const input = byId<HTMLInputElement>('file');

@@ -93,9 +93,16 @@ function reveal(id: string): void {
   if (matchMedia('(min-width: 56rem)').matches) byId(id).scrollIntoView({ block: 'nearest' });
 }
 
+/** Also gives the focus back that a button loses while its own job runs. */
 function enableWhenUsable({ store }: Page, button: HTMLButtonElement): void {
+  let hadFocus = false;
   store.on(['model', 'job'], ({ model, job }) => {
+    hadFocus ||= document.activeElement === button;
     button.disabled = !model?.oriented || job !== undefined;
+    if (!button.disabled) {
+      if (hadFocus && document.activeElement === document.body) button.focus();
+      hadFocus = false;
+    }
     button.title = model && !model.oriented ? 'Needs normals: estimate them first' : '';
   });
 }
