@@ -11,6 +11,7 @@ mod ply;
 mod sniff;
 mod stl;
 mod text;
+mod threemf;
 mod unit;
 mod write;
 mod xyz;
@@ -104,10 +105,9 @@ pub fn read_with(bytes: &[u8], options: &ReadOptions) -> Result<Imported, ReadEr
         Format::Ply => ply::read(bytes),
         Format::Xyz => xyz::read(bytes),
         Format::Off => off::read(bytes),
-        Format::ThreeMf => {
-            Err(ReadError::Parse { format, at: Location::Byte(0), expected: "no archive".to_owned() })
-        }
+        Format::ThreeMf => threemf::read(bytes),
     }?;
+    // What 3MF gives is in millimetres already.
     let scale = if format == Format::ThreeMf { 1.0 } else { options.unit.millimetres() };
     parsed.import(format, scale)
 }
