@@ -13,6 +13,8 @@ pub mod slice;
 pub mod solid;
 pub mod surface;
 pub mod treecode;
+#[cfg(target_arch = "wasm32")]
+pub mod wasm;
 pub mod winding;
 
 pub use data::{Lattice, OrientedCloud, PointCloud, TriangleSoup};

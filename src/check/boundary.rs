@@ -32,7 +32,7 @@ pub fn boundary_edges(soup: &TriangleSoup) -> Vec<[Vec3; 2]> {
 }
 
 /// For each vertex, the lowest index of those in exactly the same place; −0 is 0.
-fn weld(positions: &[Vec3]) -> Vec<u32> {
+pub(super) fn weld(positions: &[Vec3]) -> Vec<u32> {
     let bits = |p: Vec3| (p + 0.0).to_array().map(f64::to_bits);
     let mut sorted: Vec<([u64; 3], u32)> =
         positions.par_iter().enumerate().map(|(i, p)| (bits(*p), i as u32)).collect();

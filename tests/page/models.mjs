@@ -1,0 +1,32 @@
+/** Small models made for the tests, as the bytes of files. */
+
+/** The eight corners of a box are numbered by bits: 1 is high x, 2 high y, 4 high z. */
+const BOX_FACES = [
+  [0, 2, 3, 1], [4, 5, 7, 6], // bottom, top
+  [0, 1, 5, 4], [2, 6, 7, 3], // front, back
+  [0, 4, 6, 2], [1, 3, 7, 5], // left, right
+];
+
+/** A closed box of 12 triangles as binary STL, from `min` to `max`. */
+export function boxStl(min, max) {
+  const corner = (bits) => [0, 1, 2].map((k) => (bits & (1 << k) ? max[k] : min[k]));
+  const triangles = BOX_FACES.flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]);
+  const bytes = Buffer.alloc(84 + 50 * triangles.length);
+  bytes.writeUInt32LE(triangles.length, 80);
+  triangles.forEach((triangle, i) => {
+    triangle.flatMap(corner).forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k));
+  });
+  return bytes;
+}
+
+/** Points spread evenly over a sphere about the origin, without normals, as XYZ text. */
+export function sphereXyz(count, radius) {
+  const lines = [];
+  for (let i = 0; i < count; i++) {
+    const z = 1 - (2 * i + 1) / count;
+    const ring = Math.sqrt(1 - z * z);
+    const angle = i * Math.PI * (3 - Math.sqrt(5));
+    lines.push([ring * Math.cos(angle), ring * Math.sin(angle), z].map((value) => (radius * value).toFixed(6)).join(' '));
+  }
+  return Buffer.from(lines.join('\n'));
+}

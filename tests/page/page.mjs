@@ -1,0 +1,80 @@
+/** What a person sees and does on the page, in words the tests can use. */
+
+/** Opens the page and waits until the first sample is shown with its layer. */
+export async function openPage(browser, url, { width = 1600, height = 900 } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
+  const page = await context.newPage();
+  page.errors = [];
+  page.on('pageerror', (error) => page.errors.push(error.message));
+  await page.goto(url);
+  await settled(page);
+  return page;
+}
+
+/** Waits until no job runs and the layer of the plane is shown (or the model can have none). */
+export async function settled(page) {
+  await page.waitForFunction(() => {
+    const has = (selector) => document.querySelector(selector) !== null;
+    const isIdle = document.getElementById('job').hidden && has('#facts dd');
+    return isIdle && (has('#layer-download:enabled') || !document.getElementById('orient-block').hidden);
+  });
+}
+
+/** The value beside a name in one of the lists of facts. */
+export async function fact(page, list, name) {
+  return page.evaluate(
+    ([list, name]) => [...document.querySelectorAll(`#${list} dt`)].find((term) => term.textContent === name)?.nextElementSibling.textContent,
+    [list, name],
+  );
+}
+
+export async function number(page, list, name) {
+  return parseFloat((await fact(page, list, name)).replaceAll(',', '').replace('−', '-'));
+}
+
+/** Drops a file on the page as a browser does: with a DataTransfer that holds it. */
+export async function dropFile(page, name, bytes) {
+  const transfer = await page.evaluateHandle(
+    ([name, base64]) => {
+      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([bytes], name));
+      return transfer;
+    },
+    [name, bytes.toString('base64')],
+  );
+  await page.dispatchEvent('body', 'dragover', { dataTransfer: transfer });
+  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+}
+
+/** Sets a slider as a person who lets go of it would. */
+export async function slide(page, selector, value) {
+  await page.locator(selector).evaluate((slider, value) => {
+    slider.value = String(value);
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+  }, value);
+}
+
+export async function contour(page) {
+  return page.getAttribute('#plan-svg .contour', 'd');
+}
+
+/** How many pixels of the 3D view differ from its background. */
+export async function drawnPixels(page) {
+  return page.evaluate(async () => {
+    const canvas = document.getElementById('canvas');
+    const copy = document.createElement('canvas');
+    [copy.width, copy.height] = [canvas.width / 4, canvas.height / 4];
+    const context = copy.getContext('2d');
+    // A canvas of WebGL can be read only in the frame in which it was drawn; a turn there and back draws it.
+    const key = (name) => canvas.dispatchEvent(new KeyboardEvent('keydown', { key: name, bubbles: true }));
+    key('ArrowLeft');
+    key('ArrowRight');
+    await new Promise((resolve) => requestAnimationFrame(resolve));
+    context.drawImage(canvas, 0, 0, copy.width, copy.height);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    let drawn = 0;
+    for (let i = 3; i < data.length; i += 4) if (data[i] > 128) drawn++;
+    return drawn / (copy.width * copy.height);
+  });
+}

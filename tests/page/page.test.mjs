@@ -1,0 +1,368 @@
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { after, before, describe, test } from 'node:test';
+import { launch } from './browser.mjs';
+import { boxStl, sphereXyz } from './models.mjs';
+import { contour, drawnPixels, dropFile, fact, number, openPage, settled, slide } from './page.mjs';
+import { serve } from './serve.mjs';
+
+let browser;
+let server;
+
+before(async () => {
+  [browser, server] = await Promise.all([launch(), serve()]);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.close();
+});
+
+/** A box of 40 × 30 × 20 mm: its layers have an area of 1,200 mm² and a perimeter of 140 mm. */
+const BOX = boxStl([0, 0, 0], [40, 30, 20]);
+
+async function withPage(options, work) {
+  const page = await openPage(browser, server.url, options);
+  page.setDefaultTimeout(60_000);
+  try {
+    await work(page);
+    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
+  } finally {
+    await page.context().close();
+  }
+}
+
+describe('the sample', () => {
+  test('is shown at once with its counts, its size and its open edges', () =>
+    withPage({}, async (page) => {
+      assert.equal(await fact(page, 'facts', 'Triangles'), '69,451');
+      assert.equal(await fact(page, 'facts', 'Boundary edges'), '223');
+      assert.equal(await fact(page, 'facts', 'Size'), '155.7 × 120.7 × 154.3 mm');
+      assert.match(await fact(page, 'facts', 'Field built'), / m?s, /);
+      assert.ok((await drawnPixels(page)) > 0.1, 'the model covers a part of the view');
+    }));
+
+  test('runs on threads and says how many', () =>
+    withPage({}, async (page) => {
+      const threads = await number(page, 'engine-facts', 'Threads');
+      assert.equal(threads, await page.evaluate(() => navigator.hardwareConcurrency));
+      assert.equal(await page.getAttribute('#engine', 'data-state'), threads > 1 ? 'threads' : 'single');
+    }));
+
+  test('of the menu replaces the one before', () =>
+    withPage({}, async (page) => {
+      await page.selectOption('#sample', 'teapot.obj');
+      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '992');
+      assert.equal(await fact(page, 'facts', 'Format'), 'OBJ');
+    }));
+});
+
+describe('a dropped file', () => {
+  test('is measured, cut and drawn', () =>
+    withPage({}, async (page) => {
+      await dropFile(page, 'box.stl', BOX);
+      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await settled(page);
+      assert.equal(await fact(page, 'facts', 'Size'), '40 × 30 × 20 mm');
+      assert.equal(await fact(page, 'facts', 'Boundary edges'), 'none, it is closed');
+      assert.equal(await fact(page, 'layer-facts', 'Contours'), '1 outer');
+      assert.ok(Math.abs((await number(page, 'layer-facts', 'Area')) - 1200) < 1);
+      assert.ok(Math.abs((await number(page, 'layer-facts', 'Perimeter')) - 140) < 0.1);
+      assert.equal(await page.locator('#sample option:checked').textContent(), 'box.stl');
+    }));
+
+  test('that is broken is told in words, and the last model stays', () =>
+    withPage({}, async (page) => {
+      const before = await contour(page);
+      await dropFile(page, 'broken.stl', Buffer.from('no model at all'));
+      await page.waitForSelector('#problem:not([hidden])');
+      assert.equal(await page.textContent('#problem-title'), 'broken.stl could not be opened');
+      assert.match(await page.textContent('#problem-detail'), /^[A-Z].{10,}\.$/s);
+      assert.equal(await page.textContent('#problem-kept'), 'bunny.stl is still open.');
+      assert.equal(await fact(page, 'facts', 'Triangles'), '69,451');
+      await slide(page, '#layer-slider', 20);
+      await page.waitForFunction((before) => document.querySelector('#plan-svg .contour').getAttribute('d') !== before, before);
+      await page.keyboard.press('Escape');
+      assert.ok(await page.isHidden('#problem'));
+    }));
+
+  test('that is cut short is told, whatever its length', () =>
+    withPage({}, async (page) => {
+      await dropFile(page, 'cut.stl', BOX.subarray(0, 90));
+      await page.waitForSelector('#problem:not([hidden])');
+      assert.equal(await page.textContent('#problem-title'), 'cut.stl could not be opened');
+    }));
+});
+
+describe('the plane', () => {
+  test('moves its contour, and goes as fast as the slider without losing the last place', () =>
+    withPage({}, async (page) => {
+      const before = await contour(page);
+      for (let index = 30; index <= 60; index++) await slide(page, '#layer-slider', index);
+      await page.waitForFunction((before) => document.querySelector('#plan-svg .contour').getAttribute('d') !== before, before);
+      assert.match(await page.textContent('#layer-z'), /^z = 63\.2 mm$/);
+      await page.waitForTimeout(1000);
+      const settledContour = await contour(page);
+      await slide(page, '#layer-slider', 61);
+      await page.waitForFunction((before) => document.querySelector('#plan-svg .contour').getAttribute('d') !== before, settledContour);
+      await slide(page, '#layer-slider', 60);
+      await page.waitForFunction((again) => document.querySelector('#plan-svg .contour').getAttribute('d') === again, settledContour);
+    }));
+
+  test('keeps its height when the layer height changes', () =>
+    withPage({}, async (page) => {
+      assert.equal(await page.textContent('#layer-out'), 'layer 155 of 309');
+      await page.fill('#layer-height', '1');
+      await page.press('#layer-height', 'Enter');
+      assert.equal(await page.textContent('#layer-out'), 'layer 78 of 155');
+      await page.fill('#layer-height', '-3');
+      await page.press('#layer-height', 'Enter');
+      assert.equal(await page.inputValue('#layer-height'), '1', 'a height that makes no sense is taken back');
+    }));
+
+  test('shows w as colours, 1 in the middle of a box and 0 beside it', () =>
+    withPage({}, async (page) => {
+      await dropFile(page, 'box.stl', BOX);
+      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await settled(page);
+      await page.check('#heat');
+      await page.waitForSelector('#plan-svg image', { state: 'attached' });
+      assert.deepEqual(await page.locator('#legend-ticks span').allTextContents(), ['1/2', '0', '1']);
+      const box = await page.locator('#plan').boundingBox();
+      const wAt = async (x, y) => {
+        await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
+        return Number(/w (-?[\d.]+)/.exec(await page.textContent('#plan-readout'))[1]);
+      };
+      assert.ok(Math.abs((await wAt(0.5, 0.5)) - 1) < 0.01);
+      assert.ok(Math.abs(await wAt(0.05, 0.5)) < 0.01);
+      await page.uncheck('#heat');
+      await page.waitForSelector('#plan-svg image', { state: 'detached' });
+    }));
+
+  test('is saved as SVG', () =>
+    withPage({}, async (page) => {
+      const [file] = await Promise.all([page.waitForEvent('download'), page.click('#layer-download')]);
+      assert.match(file.suggestedFilename(), /^bunny-z.*\.svg$/);
+      const text = await readFile(await file.path(), 'utf8');
+      assert.match(text, /<svg[^>]*>/);
+      assert.match(text, /<path|<polygon/);
+    }));
+});
+
+describe('long work', () => {
+  test('shows progress and ends in voxels whose volume is the box', () =>
+    withPage({}, async (page) => {
+      await dropFile(page, 'box.stl', BOX);
+      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await settled(page);
+      await watchJobs(page);
+      await page.click('#voxelize');
+      await page.waitForSelector('#voxel-facts dd');
+      assert.ok((await jobsSeen(page)).some((label) => label === 'Voxels'), 'the job was announced');
+      const volume = await number(page, 'voxel-facts', 'Volume');
+      assert.ok(Math.abs(volume - 24) < 0.5, `24 cm³, got ${volume}`);
+      assert.ok(await page.isChecked('[data-item=voxels]'));
+      assert.ok(!(await page.isChecked('[data-item=model]')), 'the model makes room for its voxels');
+      const [file] = await Promise.all([page.waitForEvent('download'), page.click('#voxel-download')]);
+      assert.equal(file.suggestedFilename(), 'box-voxels.stl');
+      const stl = await readFile(await file.path());
+      assert.equal(stl.length, 84 + 50 * stl.readUInt32LE(80));
+      assert.ok(stl.readUInt32LE(80) > 1000);
+    }));
+
+  test('is cancelled by the button and by Escape, and the page goes on', () =>
+    withPage({}, async (page) => {
+      for (const cancel of [() => page.click('#job-cancel'), () => page.keyboard.press('Escape')]) {
+        await slide(page, '#voxel-resolution', 384);
+        await page.click('#voxelize');
+        await page.waitForSelector('#job:not([hidden])');
+        await cancel();
+        await page.waitForSelector('#job', { state: 'hidden' });
+        assert.equal(await page.locator('#voxel-facts dd').count(), 0);
+        assert.ok(await page.isHidden('#problem'), 'cancelling is no error');
+      }
+      const before = await contour(page);
+      await slide(page, '#layer-slider', 200);
+      await page.waitForFunction((before) => document.querySelector('#plan-svg .contour').getAttribute('d') !== before, before);
+      await slide(page, '#voxel-resolution', 32);
+      await page.click('#voxelize');
+      await page.waitForSelector('#voxel-facts dd');
+    }));
+
+  test('leaves the page responsive', () =>
+    withPage({}, async (page) => {
+      await slide(page, '#voxel-resolution', 256);
+      const longest = await page.evaluate(async () => {
+        document.getElementById('voxelize').click();
+        let [last, longest] = [performance.now(), 0];
+        while (!document.getElementById('job').hidden && last < performance.now() + 1) {
+          await new Promise((resolve) => setTimeout(resolve, 0));
+          const now = performance.now();
+          longest = Math.max(longest, now - last);
+          last = now;
+          if (document.getElementById('job-progress').value > 0.5) break;
+        }
+        return longest;
+      });
+      assert.ok(longest < 500, `the page stood still for ${longest} ms`);
+    }));
+});
+
+describe('the surface', () => {
+  test('of a broken scan is made, shown and saved', () =>
+    withPage({}, async (page) => {
+      await slide(page, '#surface-resolution', 64);
+      await page.click('#surface');
+      await page.waitForSelector('#surface-facts dd');
+      const triangles = await number(page, 'surface-facts', 'Triangles');
+      const vertices = await number(page, 'surface-facts', 'Vertices');
+      assert.equal(triangles % 2, 0, 'a closed surface has an even number of triangles');
+      assert.ok(Math.abs(triangles - 2 * vertices) < 100, 'Euler: about two triangles a vertex');
+      assert.ok((await drawnPixels(page)) > 0.1);
+      const [file] = await Promise.all([page.waitForEvent('download'), page.click('#surface-download')]);
+      assert.equal((await readFile(await file.path())).readUInt32LE(80), triangles);
+    }));
+});
+
+describe('a cloud', () => {
+  test('with normals has a layer at once', () =>
+    withPage({}, async (page) => {
+      await page.selectOption('#sample', 'dragon-points.ply');
+      await page.waitForFunction(() => document.querySelector('#facts dt').textContent === 'Points');
+      await settled(page);
+      assert.equal(await fact(page, 'facts', 'Normals'), 'yes');
+      assert.ok((await number(page, 'layer-facts', 'Area')) > 500);
+    }));
+
+  test('without normals offers to estimate them, warns, and then has an inside', () =>
+    withPage({}, async (page) => {
+      await dropFile(page, 'ball.xyz', sphereXyz(4000, 10));
+      await page.waitForSelector('#orient:visible');
+      assert.equal(await fact(page, 'facts', 'Normals'), 'missing');
+      assert.ok(await page.isDisabled('#voxelize'));
+      await page.click('#orient');
+      await page.waitForSelector('#orient-block', { state: 'hidden' });
+      await settled(page);
+      assert.ok((await page.locator('#warnings li').count()) > 0, 'estimated normals come with a warning');
+      const area = await number(page, 'layer-facts', 'Area');
+      assert.ok(Math.abs(area / (Math.PI * 100) - 1) < 0.03, `the middle of the ball is ${Math.PI * 100} mm², got ${area}`);
+    }));
+});
+
+describe('without cross-origin isolation', () => {
+  test('the page works on one thread, says why, and survives a cancel', async () => {
+    const plain = await serve({ isolated: false });
+    const page = await openPage(browser, plain.url);
+    try {
+      assert.equal(await page.evaluate(() => crossOriginIsolated), false);
+      assert.equal(await fact(page, 'engine-facts', 'Threads'), '1');
+      assert.match(await fact(page, 'engine-facts', 'Because'), /isolat/);
+      assert.equal(await fact(page, 'facts', 'Triangles'), '69,451');
+      await slide(page, '#voxel-resolution', 384);
+      await page.click('#voxelize');
+      await page.waitForSelector('#job:not([hidden])');
+      await page.keyboard.press('Escape');
+      await page.waitForSelector('#job', { state: 'hidden' });
+      await slide(page, '#voxel-resolution', 32);
+      await page.click('#voxelize');
+      await page.waitForSelector('#voxel-facts dd');
+      assert.deepEqual(page.errors, []);
+    } finally {
+      await page.context().close();
+      await plain.close();
+    }
+  });
+});
+
+describe('the keyboard', () => {
+  test('reaches every control, and each has a name', () =>
+    withPage({}, async (page) => {
+      const reached = new Set();
+      const nameless = [];
+      for (let press = 0; press < 60; press++) {
+        await page.keyboard.press('Tab');
+        const { id, name } = await page.evaluate(() => {
+          const element = document.activeElement;
+          const name = element.getAttribute('aria-label') || element.labels?.[0]?.textContent || element.textContent;
+          return { id: element.id || element.dataset.item || element.dataset.view, name: name.trim() };
+        });
+        if (id) reached.add(id);
+        if (id && !name) nameless.push(id);
+      }
+      assert.deepEqual(nameless, []);
+      for (const id of ['theme', 'sample', 'choose', 'model', 'voxel-resolution', 'voxelize', 'surface', 'canvas', 'fit', 'layer-slider', 'heat']) {
+        assert.ok(reached.has(id), `Tab reaches ${id}`);
+      }
+    }));
+
+  test('moves the plane by single layers', () =>
+    withPage({}, async (page) => {
+      await page.focus('#layer-slider');
+      await page.keyboard.press('ArrowRight');
+      assert.equal(await page.textContent('#layer-out'), 'layer 156 of 309');
+      assert.match(await page.getAttribute('#layer-slider', 'aria-valuetext'), /^layer 156 of 309, z 110\.7 millimetres$/);
+    }));
+
+  test('turns the view', () =>
+    withPage({}, async (page) => {
+      const axes = () => page.innerHTML('#axes');
+      await page.focus('#canvas');
+      const before = await axes();
+      await page.keyboard.press('ArrowLeft');
+      await page.waitForFunction((before) => document.getElementById('axes').innerHTML !== before, before);
+    }));
+});
+
+describe('the layout', () => {
+  for (const width of [390, 768, 1024, 1600]) {
+    test(`fits ${width} px without scrolling sideways`, () =>
+      withPage({ width, height: 844 }, async (page) => {
+        await page.check('#heat');
+        await page.waitForSelector('#legend:not([hidden])');
+        const { scroll, client } = await page.evaluate(() => ({
+          scroll: document.documentElement.scrollWidth,
+          client: document.documentElement.clientWidth,
+        }));
+        assert.equal(scroll, client);
+        const outside = await page.evaluate(() =>
+          [...document.querySelectorAll('button, input:not([hidden]), select, dd')]
+            .filter((element) => element.getClientRects().length > 0)
+            .filter((element) => element.getBoundingClientRect().right > innerWidth || element.getBoundingClientRect().left < 0)
+            .map((element) => element.id || element.textContent),
+        );
+        assert.deepEqual(outside, []);
+      }));
+  }
+
+  test('follows the system into the dark, and the button leads out', async () => {
+    const context = await browser.newContext({ colorScheme: 'dark' });
+    const page = await context.newPage();
+    await page.goto(server.url);
+    const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const dark = await paper();
+    await page.click('#theme');
+    const light = await paper();
+    assert.ok(luminance(dark) < 40 && luminance(light) > 200, `${dark} and ${light}`);
+    await page.reload();
+    assert.equal(await paper(), light, 'the choice is remembered');
+    await context.close();
+  });
+});
+
+function luminance(colour) {
+  const [red, green, blue] = colour.match(/\d+/g).map(Number);
+  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+}
+
+/** Notes each label that the progress card shows from now on. */
+async function watchJobs(page) {
+  await page.evaluate(() => {
+    window.jobsSeen = [];
+    const label = document.getElementById('job-label');
+    new MutationObserver(() => window.jobsSeen.push(label.textContent)).observe(label, { childList: true, characterData: true, subtree: true });
+  });
+}
+
+async function jobsSeen(page) {
+  return page.evaluate(() => window.jobsSeen);
+}

@@ -1,0 +1,30 @@
+import { restartEngine } from '../page.ts';
+import type { Page } from '../page.ts';
+import { isAborted, isLost, problemOf } from '../problem.ts';
+import { load } from './load.ts';
+
+/** Tells a problem in words; an engine that died is replaced first, and the model given to the new one. Cancelling is no problem. */
+export async function fail(page: Page, title: string, error: unknown): Promise<void> {
+  if (isAborted(error)) return;
+  try {
+    if (isLost(error)) await revive(page);
+    page.store.set({ problem: problemOf(title, error) });
+  } catch (second) {
+    page.store.set({ problem: problemOf('The engine stopped and could not start again', second) });
+  }
+}
+
+async function revive(page: Page): Promise<void> {
+  page.revival ??= restart(page).finally(() => {
+    page.revival = undefined;
+  });
+  await page.revival;
+}
+
+async function restart(page: Page): Promise<void> {
+  await restartEngine(page);
+  const { source } = page;
+  if (!source) return;
+  const model = await page.jobs.run('Starting again', (options) => load(page, source, options));
+  page.store.set({ model });
+}

@@ -1,0 +1,54 @@
+import type { Page, Source, Unit } from '../page.ts';
+import { initialState } from '../state.ts';
+import type { Model } from '../state.ts';
+import { fail } from './fail.ts';
+import { load } from './load.ts';
+import { planeFor } from './plane.ts';
+
+/** Opens a model and shows it. When that fails, the model shown before stays and the problem is told. */
+export async function open(page: Page, source: Source): Promise<void> {
+  page.store.set({ problem: undefined });
+  try {
+    const model = await page.jobs.run(`Opening ${source.name}`, (options) => load(page, source, options));
+    page.source = source;
+    show(page, model);
+  } catch (error) {
+    await fail(page, `${source.name} could not be opened`, error);
+  }
+}
+
+/** Opens the same file again, its numbers taken in another unit. */
+export async function reopen(page: Page, unit: Unit): Promise<void> {
+  if (page.source) await open(page, { ...page.source, unit });
+}
+
+/** A source for a file that was dropped or chosen. */
+export function fileSource(file: File): Source {
+  return { name: file.name, unit: 'millimeter', read: async () => new Uint8Array(await file.arrayBuffer()) };
+}
+
+/** A source for one of the samples served with the page. */
+export function sampleSource(file: string): Source {
+  return {
+    name: file,
+    unit: 'millimeter',
+    async read(signal) {
+      const response = await fetch(`samples/${file}`, { signal });
+      if (!response.ok) throw new Error(`the server answered ${response.status} for samples/${file}`);
+      return new Uint8Array(await response.arrayBuffer());
+    },
+  };
+}
+
+function show({ store }: Page, model: Model): void {
+  store.state.model?.shape.free();
+  store.set({
+    model,
+    plane: planeFor(model.bounds),
+    visible: initialState().visible,
+    layer: undefined,
+    heat: undefined,
+    voxels: undefined,
+    surface: undefined,
+  });
+}

@@ -1,0 +1,28 @@
+import type { Bounds } from 'fast-winding';
+import { niceBelow } from '../format.ts';
+import type { Plane } from '../state.ts';
+
+/** The stack is cut into about this many layers unless a layer height is given. */
+const LAYERS = 200;
+
+/** A plane through the middle of a stack of layers over the bounds. */
+export function planeFor(bounds: Bounds, layerHeight = defaultLayerHeight(bounds)): Plane {
+  const count = Math.max(1, Math.ceil(heightOf(bounds) / layerHeight - 1e-9));
+  return { index: Math.floor(count / 2), count, layerHeight };
+}
+
+/** The plane at about the same height in a stack of other layers. */
+export function withLayerHeight(plane: Plane, bounds: Bounds, layerHeight: number): Plane {
+  const { count } = planeFor(bounds, layerHeight);
+  const index = Math.floor(((plane.index + 0.5) * plane.layerHeight) / layerHeight);
+  return { index: Math.min(count - 1, index), count, layerHeight };
+}
+
+function defaultLayerHeight(bounds: Bounds): number {
+  const height = heightOf(bounds);
+  return height > 0 ? niceBelow(height / LAYERS) : 1;
+}
+
+function heightOf({ min, max }: Bounds): number {
+  return max[2] - min[2];
+}

@@ -1,0 +1,31 @@
+/** The element with this id; the page's markup promises it is there. */
+export function byId<E extends Element = HTMLElement>(id: string): E {
+  const element = document.getElementById(id);
+  if (!element) throw new Error(`no element with id ${id}`);
+  return element as unknown as E;
+}
+
+/** Fills a definition list with rows of a name and a value. */
+export function setFacts(list: HTMLElement, facts: readonly (readonly [name: string, value: string])[]): void {
+  list.replaceChildren(
+    ...facts.flatMap(([name, value]) => {
+      const term = document.createElement('dt');
+      const description = document.createElement('dd');
+      term.textContent = name;
+      description.textContent = value;
+      return [term, description];
+    }),
+  );
+}
+
+/** Shows how far along its track a slider stands (Chromium has no part for it). */
+export function paintSlider(slider: HTMLInputElement): void {
+  const [min, max] = [Number(slider.min), Number(slider.max)];
+  const filled = max > min ? (slider.valueAsNumber - min) / (max - min) : 0;
+  slider.style.setProperty('--filled', `${(100 * filled).toFixed(2)}%`);
+}
+
+/** The value of a colour (or other) token of the style sheet. */
+export function token(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}

@@ -1,0 +1,40 @@
+const integer = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
+
+/** A whole number with thousands separated. */
+export function count(value: number): string {
+  return integer.format(value);
+}
+
+/** A number with about `digits` significant figures, never in exponents for everyday sizes. */
+export function significant(value: number, digits = 4): string {
+  if (value === 0) return '0';
+  const magnitude = Math.floor(Math.log10(Math.abs(value)));
+  if (magnitude < -6 || magnitude > 12) return value.toExponential(digits - 1);
+  const decimals = Math.min(8, Math.max(0, digits - 1 - magnitude));
+  return new Intl.NumberFormat('en', { maximumFractionDigits: decimals }).format(value).replace('-', '−');
+}
+
+export function milliseconds(value: number): string {
+  if (value < 10) return `${value.toFixed(1)} ms`;
+  return value < 1000 ? `${value.toFixed(0)} ms` : `${(value / 1000).toFixed(2)} s`;
+}
+
+/** A volume given in mm³; in cm³ from 1,000 mm³ on. */
+export function volume(cubicMillimetres: number): string {
+  return cubicMillimetres < 1000 ? `${significant(cubicMillimetres)} mm³` : `${significant(cubicMillimetres / 1000)} cm³`;
+}
+
+export function bytes(value: number): string {
+  return value < 1e6 ? `${significant(value / 1e3, 3)} KB` : `${significant(value / 1e6, 3)} MB`;
+}
+
+export function plural(value: number, one: string, many = `${one}s`): string {
+  return `${count(value)} ${value === 1 ? one : many}`;
+}
+
+/** The largest of 1, 2 and 5 times a power of ten that is not above `value`. */
+export function niceBelow(value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value));
+  const lead = value / power;
+  return Number(((lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power).toPrecision(1));
+}

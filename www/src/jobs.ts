@@ -1,0 +1,48 @@
+import type { CallOptions } from 'fast-winding';
+import type { State } from './state.ts';
+import type { Store } from './store.ts';
+
+/** Runs long work one piece at a time, tells its progress to the store and can cancel it. */
+export class Jobs {
+  readonly #store: Store<State>;
+  #running?: { controller: AbortController; settled: Promise<unknown> };
+
+  constructor(store: Store<State>) {
+    this.#store = store;
+  }
+
+  get isRunning(): boolean {
+    return this.#running !== undefined;
+  }
+
+  /** Cancels what runs, waits until it has stopped, then starts `work`. */
+  async run<T>(label: string, work: (options: Required<CallOptions>) => Promise<T>): Promise<T> {
+    while (this.#running) {
+      this.#running.controller.abort();
+      await this.#running.settled;
+    }
+    const controller = new AbortController();
+    this.#store.set({ job: { label, stage: '', canCancel: true } });
+    const result = work({
+      signal: controller.signal,
+      onProgress: (fraction, stage) => {
+        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction, canCancel: true } });
+      },
+    });
+    const running = { controller, settled: result.catch(() => undefined) };
+    this.#running = running;
+    try {
+      return await result;
+    } finally {
+      this.#running = undefined;
+      this.#store.set({ job: undefined });
+    }
+  }
+
+  cancel(): void {
+    const job = this.#store.state.job;
+    if (!job || !this.#running) return;
+    this.#running.controller.abort();
+    this.#store.set({ job: { ...job, stage: 'stopping', fraction: undefined, canCancel: false } });
+  }
+}

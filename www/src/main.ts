@@ -1,0 +1,61 @@
+import './style/index.css';
+import { SAMPLES } from '../samples/catalogue.ts';
+import { followPlane } from './actions/layer.ts';
+import { open, sampleSource } from './actions/open.ts';
+import { byId } from './dom.ts';
+import { startPage } from './page.ts';
+import { enginePanel } from './panels/engine.ts';
+import { jobControls, showJob } from './panels/job.ts';
+import { layerPanel } from './panels/layer.ts';
+import { legendPanel } from './panels/legend.ts';
+import { modelControls, showModelFacts } from './panels/model.ts';
+import { planPanel } from './panels/plan.ts';
+import { problemPanel } from './panels/problem.ts';
+import { showPanel } from './panels/show.ts';
+import { surfacePanel, voxelPanel } from './panels/solid.ts';
+import { problemOf } from './problem.ts';
+import { initialState } from './state.ts';
+import type { State } from './state.ts';
+import { Store } from './store.ts';
+import { startTheme } from './theme.ts';
+import { View } from './view/view.ts';
+
+const store = new Store<State>(initialState());
+showJob(store);
+problemPanel(store);
+enginePanel(store);
+showModelFacts(store);
+showPanel(store);
+legendPanel(store);
+planPanel(store);
+startView();
+await startEngine();
+
+/** Without WebGL 2 the rest of the page still works. */
+function startView(): void {
+  try {
+    const view = new View(store);
+    startTheme(byId<HTMLButtonElement>('theme'), () => view.refresh());
+  } catch (error) {
+    startTheme(byId<HTMLButtonElement>('theme'), () => undefined);
+    store.set({ problem: problemOf('The 3D view needs WebGL 2', error) });
+  }
+}
+
+async function startEngine(): Promise<void> {
+  store.set({ job: { label: 'Starting', stage: 'loading the engine', canCancel: false } });
+  try {
+    const page = await startPage(store);
+    modelControls(page);
+    layerPanel(page);
+    voxelPanel(page);
+    surfacePanel(page);
+    jobControls(store, page.jobs);
+    followPlane(page);
+    await open(page, sampleSource(SAMPLES[0].file));
+  } catch (error) {
+    byId('engine').dataset.state = 'failed';
+    byId('engine-text').textContent = 'not running';
+    store.set({ job: undefined, problem: problemOf('The engine could not start', error) });
+  }
+}

@@ -1,0 +1,41 @@
+import { init } from 'fast-winding';
+import type { FastWinding, ReadOptions } from 'fast-winding';
+import { Jobs } from './jobs.ts';
+import { initialState } from './state.ts';
+import type { State } from './state.ts';
+import { Store } from './store.ts';
+
+export type Unit = NonNullable<ReadOptions['unit']>;
+
+/** Where a model comes from; read again when the engine had to be replaced. */
+export interface Source {
+  readonly name: string;
+  /** Of the file's numbers, where its format does not say. */
+  readonly unit: Unit;
+  read(signal: AbortSignal): Promise<Uint8Array>;
+}
+
+/** What every action works with. */
+export interface Page {
+  readonly store: Store<State>;
+  readonly jobs: Jobs;
+  engine: FastWinding;
+  /** Of the model that is shown. */
+  source?: Source;
+  /** Pending while a new engine takes the place of one that died. */
+  revival?: Promise<void>;
+}
+
+/** Starts the engine; rejects when the browser cannot run it at all. */
+export async function startPage(store: Store<State> = new Store(initialState())): Promise<Page> {
+  const engine = await init();
+  store.set({ info: engine.info });
+  return { store, jobs: new Jobs(store), engine };
+}
+
+/** Ends the engine with all its handles and starts another. */
+export async function restartEngine(page: Page): Promise<void> {
+  page.engine.dispose();
+  page.engine = await init();
+  page.store.set({ info: page.engine.info });
+}

@@ -1,0 +1,71 @@
+import { planeFor, withLayerHeight } from '../actions/plane.ts';
+import { saveLayer } from '../actions/save.ts';
+import { areaOf, perimeterOf, ringsOf } from '../contour.ts';
+import { byId, paintSlider, setFacts } from '../dom.ts';
+import { count, milliseconds, significant } from '../format.ts';
+import type { Page } from '../page.ts';
+import { diagonal, planeHeight } from '../state.ts';
+import type { State } from '../state.ts';
+
+/** More layers than this are a mistyped layer height, and too fine for a slider. */
+const MOST_LAYERS = 100_000;
+
+export function layerPanel(page: Page): void {
+  const { store } = page;
+  const slider = byId<HTMLInputElement>('layer-slider');
+  const height = byId<HTMLInputElement>('layer-height');
+  const heat = byId<HTMLInputElement>('heat');
+  const cut = byId<HTMLInputElement>('cut');
+
+  slider.addEventListener('input', () => store.set({ plane: { ...store.state.plane, index: slider.valueAsNumber } }));
+  heat.addEventListener('change', () => store.set({ heatWanted: heat.checked }));
+  cut.addEventListener('change', () => store.set({ cutAway: cut.checked }));
+  byId('layer-download').addEventListener('click', () => void saveLayer(page));
+  height.addEventListener('change', () => {
+    const { model, plane } = store.state;
+    const isUsable = model && height.valueAsNumber > 0 && planeFor(model.bounds, height.valueAsNumber).count <= MOST_LAYERS;
+    if (isUsable) store.set({ plane: withLayerHeight(plane, model.bounds, height.valueAsNumber) });
+    else height.value = String(plane.layerHeight);
+  });
+
+  store.on(['plane', 'model'], ({ plane, model }) => {
+    const isUsable = model?.oriented ?? false;
+    slider.disabled = height.disabled = heat.disabled = cut.disabled = !isUsable;
+    slider.max = String(Math.max(0, plane.count - 1));
+    slider.valueAsNumber = plane.index;
+    height.value = String(plane.layerHeight);
+    paintSlider(slider);
+    const z = model ? planeHeight(plane, model.bounds) : 0;
+    slider.setAttribute('aria-valuetext', `layer ${plane.index + 1} of ${plane.count}, z ${significant(z)} millimetres`);
+    byId('layer-out').textContent = model ? `layer ${count(plane.index + 1)} of ${count(plane.count)}` : '';
+    byId('layer-z').textContent = model ? `z = ${fixedHeight(z, model.bounds)} mm` : '';
+  });
+  store.on(['layer', 'heat', 'model'], showFacts);
+}
+
+function showFacts({ layer, heat, model }: State): void {
+  byId<HTMLButtonElement>('layer-download').disabled = !layer;
+  if (!layer) {
+    const reason = model && !model.oriented ? ([['Layer', 'needs normals']] as const) : [];
+    return setFacts(byId('layer-facts'), reason);
+  }
+  const { value, milliseconds: time } = layer;
+  setFacts(byId('layer-facts'), [
+    ['Contours', contours(value.polygons.length, ringsOf(value).length - value.polygons.length)],
+    ['Area', `${significant(areaOf(value))} mm²`],
+    ['Perimeter', `${significant(perimeterOf(value))} mm`],
+    ['Layer computed', milliseconds(time)],
+    ...(heat ? ([['Heat map computed', milliseconds(heat.milliseconds)]] as const) : []),
+  ]);
+}
+
+function contours(outer: number, holes: number): string {
+  if (outer === 0) return 'none at this height';
+  return holes === 0 ? `${count(outer)} outer` : `${count(outer)} outer, ${count(holes)} ${holes === 1 ? 'hole' : 'holes'}`;
+}
+
+/** The same number of decimals at every height of a model, so that the figure does not jump. */
+function fixedHeight(z: number, bounds: Parameters<typeof diagonal>[0]): string {
+  const decimals = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(diagonal(bounds) || 1))));
+  return z.toFixed(decimals).replace('-', '−');
+}

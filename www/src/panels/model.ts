@@ -1,0 +1,117 @@
+import { SAMPLES } from '../../samples/catalogue.ts';
+import { fileSource, open, reopen, sampleSource } from '../actions/open.ts';
+import { orient } from '../actions/solid.ts';
+import { byId, setFacts } from '../dom.ts';
+import { bytes, count, milliseconds, significant } from '../format.ts';
+import type { Page, Unit } from '../page.ts';
+import { sentence } from '../problem.ts';
+import type { Model, State } from '../state.ts';
+import type { Store } from '../store.ts';
+
+/** What the numbers of a file may mean, when its format has no unit. */
+const UNITS: readonly (readonly [Unit, string])[] = [
+  ['millimeter', 'millimetres'],
+  ['centimeter', 'centimetres'],
+  ['meter', 'metres'],
+  ['inch', 'inches'],
+  ['foot', 'feet'],
+  ['micron', 'microns'],
+];
+
+/** The facts and warnings of the model; works without an engine. */
+export function showModelFacts(store: Store<State>): void {
+  store.on(['model'], ({ model }) => {
+    if (!model) return;
+    setFacts(byId('facts'), factsOf(model));
+    const warnings = byId('warnings');
+    warnings.hidden = model.warnings.length === 0;
+    warnings.replaceChildren(
+      ...model.warnings.map(({ message }) => {
+        const item = document.createElement('li');
+        item.textContent = sentence(message);
+        return item;
+      }),
+    );
+    byId('orient-block').hidden = model.oriented;
+  });
+}
+
+/** The menu of samples, the file button, dropping, and estimating normals. */
+export function modelControls(page: Page): void {
+  const menu = byId<HTMLSelectElement>('sample');
+  menu.replaceChildren(...SAMPLES.map(({ file, title }) => new Option(title, file)));
+  menu.addEventListener('change', () => {
+    if (menu.value) void open(page, sampleSource(menu.value));
+  });
+  const ownFile = new Option('', '');
+  // Also when a job ends: a sample that was not opened after all leaves the menu on what is shown.
+  page.store.on(['model', 'job'], ({ model, job }) => {
+    if (!model || job) return;
+    const isSample = SAMPLES.some(({ file }) => file === model.name);
+    if (!isSample) {
+      ownFile.textContent = model.name;
+      menu.prepend(ownFile);
+    } else ownFile.remove();
+    menu.value = isSample ? model.name : '';
+    const note = SAMPLES.find(({ file }) => file === model.name)?.note;
+    byId('sample-note').hidden = !note;
+    byId('sample-note').textContent = note ?? '';
+  });
+  const unit = byId<HTMLSelectElement>('unit');
+  unit.replaceChildren(...UNITS.map(([value, text]) => new Option(text, value)));
+  unit.addEventListener('change', () => void reopen(page, unit.value as Unit));
+  page.store.on(['model', 'job'], ({ model, job }) => {
+    if (!model || job) return;
+    byId('unit-field').hidden = model.shape.format === '3mf';
+    unit.value = page.source?.unit ?? 'millimeter';
+  });
+
+  const input = byId<HTMLInputElement>('file');
+  byId('choose').addEventListener('click', () => input.click());
+  input.addEventListener('change', () => {
+    if (input.files?.[0]) void open(page, fileSource(input.files[0]));
+    input.value = '';
+  });
+  acceptDrops((file) => void open(page, fileSource(file)));
+  byId('orient').addEventListener('click', () => void orient(page));
+}
+
+function factsOf({ shape, geometry, bounds, prepared, readMilliseconds, oriented }: Model): [string, string][] {
+  const size = [0, 1, 2].map((k) => significant(bounds.max[k] - bounds.min[k]));
+  const facts: [string, string][] = [];
+  if (shape.kind === 'soup') {
+    facts.push(['Triangles', count(shape.count)]);
+    const edges = geometry.boundary.length / 6;
+    facts.push(['Boundary edges', edges === 0 ? 'none, it is closed' : count(edges)]);
+  } else {
+    facts.push(['Points', count(shape.count)]);
+    facts.push(['Normals', oriented ? 'yes' : 'missing']);
+  }
+  facts.push(['Size', `${size.join(' × ')} mm`]);
+  facts.push(['Lowest corner', bounds.min.map((value) => significant(value)).join(', ')]);
+  facts.push(['Format', shape.format.toUpperCase()]);
+  facts.push(['Read', milliseconds(readMilliseconds)]);
+  if (prepared) facts.push(['Field built', `${milliseconds(prepared.milliseconds)}, ${bytes(prepared.bytes)}`]);
+  return facts;
+}
+
+/** A file may be dropped anywhere on the page; a veil shows that it will be taken. */
+function acceptDrops(take: (file: File) => void): void {
+  const veil = byId('drop-veil');
+  const hasFile = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
+  addEventListener('dragover', (event) => {
+    if (!hasFile(event)) return;
+    event.preventDefault();
+    veil.hidden = false;
+  });
+  addEventListener('dragleave', (event) => {
+    if (event.relatedTarget === null) veil.hidden = true;
+  });
+  addEventListener('drop', (event) => {
+    veil.hidden = true;
+    if (!hasFile(event)) return;
+    event.preventDefault();
+    const file = event.dataTransfer?.files[0];
+    if (file) take(file);
+  });
+}

@@ -1,0 +1,108 @@
+import { saveMesh } from '../actions/save.ts';
+import { makeSurface, makeVoxels } from '../actions/solid.ts';
+import { byId, paintSlider, setFacts } from '../dom.ts';
+import { count, milliseconds, volume } from '../format.ts';
+import type { Page } from '../page.ts';
+import type { State } from '../state.ts';
+
+export function voxelPanel(page: Page): void {
+  const { store } = page;
+  const resolution = slider('voxel-resolution');
+  const threshold = slider('voxel-threshold');
+  const describe = (): void => {
+    byId('voxel-cells').textContent = cells(store.state, resolution.valueAsNumber);
+  };
+  resolution.addEventListener('input', describe);
+  store.on(['model'], describe);
+  byId('voxelize').addEventListener('click', () => void makeVoxels(page, resolution.valueAsNumber, threshold.valueAsNumber));
+  byId('voxel-download').addEventListener('click', () => {
+    const mesh = store.state.voxels?.value.surface;
+    if (mesh) void saveMesh(page, mesh, 'voxels');
+  });
+  store.on(['voxels'], ({ voxels }) => {
+    byId<HTMLButtonElement>('voxel-download').disabled = !voxels;
+    setFacts(
+      byId('voxel-facts'),
+      voxels
+        ? [
+            ['Inside', `${count(voxels.value.count)} of ${count(voxels.value.counts.reduce((product, n) => product * n))}`],
+            ['Volume', volume(voxels.value.volume)],
+            ['Computed', milliseconds(voxels.milliseconds)],
+          ]
+        : [],
+    );
+    if (voxels) reveal('voxel-facts');
+  });
+  enableWhenUsable(page, byId<HTMLButtonElement>('voxelize'));
+}
+
+export function surfacePanel(page: Page): void {
+  const { store } = page;
+  const resolution = slider('surface-resolution');
+  const describe = (): void => {
+    byId('surface-cells').textContent = cells(store.state, resolution.valueAsNumber);
+  };
+  resolution.addEventListener('input', describe);
+  store.on(['model'], describe);
+  byId('surface').addEventListener('click', () => void makeSurface(page, resolution.valueAsNumber));
+  byId('surface-download').addEventListener('click', () => {
+    const mesh = store.state.surface?.value;
+    if (mesh) void saveMesh(page, mesh, 'surface');
+  });
+  store.on(['surface'], ({ surface }) => {
+    byId<HTMLButtonElement>('surface-download').disabled = !surface;
+    setFacts(
+      byId('surface-facts'),
+      surface
+        ? [
+            ['Triangles', count(surface.value.indices.length / 3)],
+            ['Vertices', count(surface.value.positions.length / 3)],
+            ['Computed', milliseconds(surface.milliseconds)],
+          ]
+        : [],
+    );
+    if (surface) reveal('surface-facts');
+  });
+  enableWhenUsable(page, byId<HTMLButtonElement>('surface'));
+}
+
+/** A slider whose value is written beside it. */
+function slider(id: string): HTMLInputElement {
+  const input = byId<HTMLInputElement>(id);
+  const show = (): void => {
+    byId(`${id}-out`).textContent = input.value;
+    paintSlider(input);
+  };
+  input.addEventListener('input', show);
+  show();
+  return input;
+}
+
+/** How many cubic cells a resolution along the longest side means for the model. */
+function cells({ model }: State, resolution: number): string {
+  if (!model) return '';
+  const { min, max } = model.bounds;
+  const sides = [0, 1, 2].map((k) => max[k] - min[k]);
+  const cell = Math.max(...sides) / resolution;
+  const counts = sides.map((side) => Math.max(1, Math.ceil(side / cell - 1e-9)));
+  return `${counts.map(count).join(' × ')} cells of ${cell.toPrecision(3)} mm`;
+}
+
+/** Scrolls figures into sight where the panels have their own column; on a narrow page the view is what to look at. */
+function reveal(id: string): void {
+  if (matchMedia('(min-width: 56rem)').matches) byId(id).scrollIntoView({ block: 'nearest' });
+}
+
+/** Also gives the focus back that a button loses while its own job runs. */
+function enableWhenUsable({ store }: Page, button: HTMLButtonElement): void {
+  let hadFocus = false;
+  store.on(['model', 'job'], ({ model, job }) => {
+    hadFocus ||= document.activeElement === button;
+    button.disabled = !model?.oriented || job !== undefined;
+    if (!button.disabled) {
+      if (hadFocus && document.activeElement === document.body) button.focus();
+      hadFocus = false;
+    }
+    button.title = model && !model.oriented ? 'Needs normals: estimate them first' : '';
+  });
+}

@@ -1,0 +1,85 @@
+import type { Bounds, Cloud, HeatMap, Info, Layer, Mesh, Prepared, Soup, Voxels, Warning } from 'fast-winding';
+import type { Problem } from './problem.ts';
+
+/** What is drawn of the model itself: positions relative to `origin`. */
+export interface Geometry {
+  positions: Float32Array;
+  /** Three a triangle; absent for a cloud. */
+  indices?: Uint32Array;
+  /** One a point, of unit length; absent for a soup and for a cloud not oriented yet. */
+  normals?: Float32Array;
+  /** Two ends of each boundary edge. */
+  boundary: Float32Array;
+  origin: Float64Array;
+}
+
+export interface Model {
+  readonly name: string;
+  readonly shape: Soup | Cloud;
+  readonly geometry: Geometry;
+  readonly bounds: Bounds;
+  readonly warnings: readonly Warning[];
+  /** False for a cloud that has no normals yet: it has no inside. */
+  readonly oriented: boolean;
+  readonly readMilliseconds: number;
+  /** Absent until the field can be built. */
+  readonly prepared?: Prepared;
+}
+
+/** A result and the time its call took. */
+export interface Timed<T> {
+  readonly value: T;
+  readonly milliseconds: number;
+}
+
+/** The stack of layers that the slider runs through; the plane cuts layer `index` at its middle. */
+export interface Plane {
+  readonly index: number;
+  readonly count: number;
+  readonly layerHeight: number;
+}
+
+export interface Job {
+  readonly label: string;
+  readonly stage: string;
+  /** 0 to 1; undefined while it is not known. */
+  readonly fraction?: number;
+  readonly canCancel: boolean;
+}
+
+export const ITEMS = ['model', 'boundary', 'normals', 'layer', 'voxels', 'surface'] as const;
+/** What can be shown or hidden in the 3D view. */
+export type Item = (typeof ITEMS)[number];
+
+export interface State {
+  info?: Info;
+  model?: Model;
+  plane: Plane;
+  layer?: Timed<Layer>;
+  heat?: Timed<HeatMap>;
+  heatWanted: boolean;
+  cutAway: boolean;
+  voxels?: Timed<Voxels>;
+  surface?: Timed<Mesh>;
+  visible: Readonly<Record<Item, boolean>>;
+  job?: Job;
+  problem?: Problem;
+}
+
+export function initialState(): State {
+  return {
+    plane: { index: 0, count: 0, layerHeight: 1 },
+    heatWanted: false,
+    cutAway: false,
+    visible: { model: true, boundary: true, normals: false, layer: true, voxels: true, surface: true },
+  };
+}
+
+/** Height of the cutting plane, in the model's coordinates. */
+export function planeHeight(plane: Plane, bounds: Bounds): number {
+  return bounds.min[2] + (plane.index + 0.5) * plane.layerHeight;
+}
+
+export function diagonal({ min, max }: Bounds): number {
+  return Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
+}

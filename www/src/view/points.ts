@@ -1,0 +1,96 @@
+import { BufferAttribute, BufferGeometry, Color, Points, ShaderMaterial, Vector2 } from 'three';
+import type { LineSegments, Plane } from 'three';
+import { token } from '../dom.ts';
+import { thinLines } from './lines.ts';
+
+/** Length of a drawn normal, as a part of the model's diagonal. */
+const NORMAL_LENGTH = 0.012;
+/** More normals than this are a fur that hides the points. */
+const NORMALS_DRAWN = 12_000;
+/** Diameter of a drawn point over the mean spacing of points on the diagonal's square: overlapping, and clearly apart. */
+const COVERING = 1.7;
+const APART = 0.6;
+/** Cosine above which a point still counts as seen from the front: discs at a silhouette stand out behind it. */
+const GRAZING = -0.3;
+
+const VERTEX = /* glsl */ `
+  #include <clipping_planes_pars_vertex>
+  uniform float diameter;
+  uniform float viewHeight;
+  uniform vec2 depths;
+  varying float facing;
+  varying float depth;
+  void main() {
+    vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+    #include <clipping_planes_vertex>
+    facing = HAS_NORMALS ? dot(normalize(normalMatrix * normal), normalize(-mvPosition.xyz)) : 0.0;
+    depth = clamp((-mvPosition.z - depths.x) / (depths.y - depths.x), 0.0, 1.0);
+    gl_Position = projectionMatrix * mvPosition;
+    gl_PointSize = max(2.0, diameter * projectionMatrix[1][1] * viewHeight / (2.0 * gl_Position.w));
+  }
+`;
+/** With normals a point is shaded as a piece of surface; without, as a small ball, paler the farther away it is. */
+const FRAGMENT = /* glsl */ `
+  #include <clipping_planes_pars_fragment>
+  uniform vec3 front;
+  uniform vec3 back;
+  uniform vec3 paper;
+  varying float facing;
+  varying float depth;
+  void main() {
+    #include <clipping_planes_fragment>
+    float radius = 2.0 * length(gl_PointCoord - 0.5);
+    if (radius > 1.0) discard;
+    vec3 surface = facing >= GRAZING ? front * (0.35 + 0.75 * max(facing, 0.0)) : back * (0.45 - 0.45 * facing);
+    vec3 ball = mix(front * (0.45 + 0.55 * sqrt(1.0 - radius * radius)), paper, 0.6 * depth);
+    gl_FragColor = vec4(HAS_NORMALS ? surface : ball, 1.0);
+    #include <colorspace_fragment>
+  }
+`;
+
+/** Round points, shaded by their normals where there are some; those seen from behind have the tint of back faces. */
+export function pointsOf(positions: Float32Array, normals: Float32Array | undefined, diagonal: number, cut: Plane[]): Points {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  if (normals) geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+  geometry.computeBoundingSphere();
+  const spacing = diagonal / Math.sqrt(Math.max(1, positions.length / 3));
+  const material = new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    defines: { HAS_NORMALS: normals ? 'true' : 'false', GRAZING: String(GRAZING) },
+    uniforms: {
+      diameter: { value: spacing * (normals ? COVERING : APART) },
+      viewHeight: { value: 1 },
+      depths: { value: new Vector2(0, 1) },
+      front: { value: new Color(token(normals ? '--view-front' : '--view-points')) },
+      back: { value: new Color(token('--view-back')) },
+      paper: { value: new Color(token('--paper')) },
+    },
+    clipping: true,
+    clippingPlanes: cut,
+  });
+  const points = new Points(geometry, material);
+  points.onBeforeRender = (renderer, _scene, camera) => {
+    const { center, radius } = geometry.boundingSphere!;
+    const distance = center.clone().applyMatrix4(camera.matrixWorldInverse).z * -1;
+    material.uniforms.viewHeight.value = renderer.domElement.height;
+    (material.uniforms.depths.value as Vector2).set(distance - radius, distance + radius);
+    material.uniformsNeedUpdate = true;
+  };
+  return points;
+}
+
+/** A short line along the normal of each point, or of evenly chosen ones when there are very many. */
+export function normalsOf(positions: Float32Array, normals: Float32Array, diagonal: number, cut: Plane[]): LineSegments {
+  const count = positions.length / 3;
+  const stride = Math.ceil(count / NORMALS_DRAWN);
+  const ends = new Float32Array(6 * Math.ceil(count / stride));
+  for (let i = 0, at = 0; i < count; i += stride, at += 6) {
+    for (let k = 0; k < 3; k++) {
+      ends[at + k] = positions[3 * i + k];
+      ends[at + 3 + k] = positions[3 * i + k] + NORMAL_LENGTH * diagonal * normals[3 * i + k];
+    }
+  }
+  return thinLines(ends, '--view-normals', cut);
+}

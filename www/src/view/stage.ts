@@ -1,0 +1,117 @@
+import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { cameraFor } from './framing.ts';
+import type { Box, Direction } from './framing.ts';
+
+/** Angle that one press of an arrow key turns the camera. */
+const TURN_RADIANS = Math.PI / 24;
+const ZOOM_PER_PRESS = 1.15;
+/** Keeps the camera from looking exactly along z, where "up" would flip. */
+const POLE_RADIANS = 0.01;
+
+/** Renderer, camera, lights and their controls. Draws only when something changed. */
+export class Stage {
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(32, 1, 0.1, 1000);
+  readonly #renderer: WebGLRenderer;
+  readonly #controls: OrbitControls;
+  readonly #afterDraw: (() => void)[] = [];
+  #box?: Box;
+  #isWaiting = false;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.#renderer.localClippingEnabled = true;
+    this.camera.up.set(0, 0, 1);
+    this.#light();
+    this.#controls = new OrbitControls(this.camera, canvas);
+    this.#controls.addEventListener('change', () => this.draw());
+    canvas.addEventListener('keydown', (event) => this.#onKey(event));
+    new ResizeObserver(() => this.#resize(canvas)).observe(canvas);
+  }
+
+  /** Draws before the next frame is shown. */
+  draw(): void {
+    if (this.#isWaiting) return;
+    this.#isWaiting = true;
+    requestAnimationFrame(() => {
+      this.#isWaiting = false;
+      this.#renderer.render(this.scene, this.camera);
+      for (const call of this.#afterDraw) call();
+    });
+  }
+
+  afterDraw(call: () => void): void {
+    this.#afterDraw.push(call);
+  }
+
+  /** Looks at the whole box; from where the camera is unless a direction is given. */
+  frame(box: Box | undefined = this.#box, direction?: Direction): void {
+    if (!box) return;
+    this.#box = box;
+    const { position, target, near, far } = cameraFor(box, this.camera, this.#controls.target, direction);
+    this.camera.position.copy(position);
+    this.camera.near = near;
+    this.camera.far = far;
+    this.camera.updateProjectionMatrix();
+    this.#controls.target.copy(target);
+    this.#controls.update();
+    this.draw();
+  }
+
+  /** Light comes from beside the camera, so that no side lies in the dark. */
+  #light(): void {
+    const key = new DirectionalLight(0xffffff, 1.9);
+    key.position.set(-0.5, 0.8, 1);
+    this.camera.add(key, key.target);
+    key.target.position.set(0, 0, -1);
+    const sky = new HemisphereLight(new Color('#ffffff'), new Color('#8d8a86'), 1.35);
+    sky.position.set(0, 0, 1);
+    this.scene.add(this.camera, sky);
+  }
+
+  #resize(canvas: HTMLCanvasElement): void {
+    const { clientWidth: width, clientHeight: height } = canvas;
+    if (width === 0 || height === 0) return;
+    this.#renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.#renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  #onKey(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const turns: Record<string, [number, number]> = {
+      ArrowLeft: [-TURN_RADIANS, 0],
+      ArrowRight: [TURN_RADIANS, 0],
+      ArrowUp: [0, -TURN_RADIANS],
+      ArrowDown: [0, TURN_RADIANS],
+    };
+    if (turns[event.key]) this.#turn(...turns[event.key]);
+    else if (event.key === '+' || event.key === '=') this.#zoom(1 / ZOOM_PER_PRESS);
+    else if (event.key === '-') this.#zoom(ZOOM_PER_PRESS);
+    else if (event.key === 'f' || event.key === 'F' || event.key === 'Home') this.frame();
+    else return;
+    event.preventDefault();
+  }
+
+  #turn(around: number, over: number): void {
+    const arm = new Vector3().subVectors(this.camera.position, this.#controls.target);
+    const polar = Math.acos(arm.z / arm.length());
+    const turned = Math.min(Math.PI - POLE_RADIANS, Math.max(POLE_RADIANS, polar + over));
+    const azimuth = Math.atan2(arm.y, arm.x) + around;
+    const length = arm.length();
+    arm.set(Math.sin(turned) * Math.cos(azimuth), Math.sin(turned) * Math.sin(azimuth), Math.cos(turned)).multiplyScalar(length);
+    this.camera.position.addVectors(this.#controls.target, arm);
+    this.#controls.update();
+    this.draw();
+  }
+
+  #zoom(factor: number): void {
+    const arm = new Vector3().subVectors(this.camera.position, this.#controls.target);
+    this.camera.position.addVectors(this.#controls.target, arm.multiplyScalar(factor));
+    this.#controls.update();
+    this.draw();
+  }
+}
