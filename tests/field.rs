@@ -204,6 +204,22 @@ fn defaults_meet_the_papers_error_on_the_bunny() {
 }
 
 #[test]
+fn a_lattice_has_the_values_of_its_points() {
+    let soup = without(&torus(1.0, 0.4, 100, 40), |t| t % 5 == 0);
+    for shape in [Shape::from(barycentre_cloud(&soup, 1)), Shape::from(soup)] {
+        let field = WindingField::new(shape, FieldConfig::default());
+        let lattice = Lattice::with_resolution(field.bounds(), 21).unwrap();
+        for order in [Order::Zero, Order::One, Order::Two] {
+            let accuracy = Accuracy::Explicit { order, beta: 2.0 };
+            let grid = field.evaluate_lattice(&lattice, accuracy, &Silent).unwrap();
+            let singly = field.evaluate(&lattice_points(field.bounds(), 21), accuracy, &Silent).unwrap();
+            // The same clusters, summed in another order of 32-bit floats.
+            assert!(errors(&grid.values, &singly).1 < 2e-6, "{:?}", errors(&grid.values, &singly));
+        }
+    }
+}
+
+#[test]
 fn product_of_angles_equals_the_sum_of_arctangents_next_to_the_surface() {
     let soup = without(&torus(1.0, 0.4, 60, 24), |t| t % 13 == 0);
     let field = WindingField::new(soup.clone(), FieldConfig::default());
@@ -225,8 +241,10 @@ fn any_number_of_threads_gives_the_same_bits() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let field = WindingField::new(soup.clone(), FieldConfig::default());
-            let values = field.evaluate(&points, Accuracy::default(), &Silent).unwrap();
-            values.into_iter().map(f64::to_bits).collect::<Vec<u64>>()
+            let singly = field.evaluate(&points, Accuracy::default(), &Silent).unwrap();
+            let lattice = Lattice::with_resolution(field.bounds(), 24).unwrap();
+            let grid = field.evaluate_lattice(&lattice, Accuracy::default(), &Silent).unwrap();
+            singly.into_iter().chain(grid.values).map(f64::to_bits).collect::<Vec<u64>>()
         })
     };
     let one = bits(1);

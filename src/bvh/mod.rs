@@ -29,6 +29,9 @@ pub struct Node {
     pub bounds: [Aabb; WIDTH],
 }
 
+/// Scratch space of a walk: nodes still to visit, and what is carried to them.
+pub type Stack<C = ()> = Vec<(u32, C)>;
+
 /// The hierarchy. Node 0 is the root; items are in the order of the Morton curve through their box centres.
 #[derive(Clone, Debug)]
 pub struct Bvh {
@@ -65,29 +68,32 @@ impl Bvh {
         }
     }
 
-    /// Walks the tree from the root, in a fixed order.
+    /// Walks the tree from the root, in a fixed order, with something to carry: `root` at the root, and below it what
+    /// `visit` hands to each child.
     ///
-    /// `visit(node index)` answers which children to open, bit k for child k. An opened leaf is given to
-    /// `leaf(node index, child index)`. `stack` is scratch space, kept by the caller so that many walks share it.
-    pub fn traverse(
+    /// `visit(node index, carried)` answers which children to open, bit k for child k, and what each gets. An opened
+    /// leaf is given to `leaf(node index, child index, carried)`. `stack` is scratch space, kept by the caller so that
+    /// many walks share it.
+    pub fn traverse<C: Copy>(
         &self,
-        stack: &mut Vec<u32>,
-        mut visit: impl FnMut(usize) -> u32,
-        mut leaf: impl FnMut(usize, usize),
+        stack: &mut Stack<C>,
+        root: C,
+        mut visit: impl FnMut(usize, C) -> (u32, [C; WIDTH]),
+        mut leaf: impl FnMut(usize, usize, C),
     ) {
         stack.clear();
         if !self.items.is_empty() {
-            stack.push(0);
+            stack.push((0, root));
         }
-        while let Some(index) = stack.pop() {
-            let mut open = visit(index as usize);
+        while let Some((index, carried)) = stack.pop() {
+            let (mut open, below) = visit(index as usize, carried);
             while open != 0 {
                 let k = open.trailing_zeros() as usize;
                 open &= open - 1;
                 match self.nodes[index as usize].children[k] {
                     Child::Empty => {}
-                    Child::Inner(node) => stack.push(node),
-                    Child::Leaf { .. } => leaf(index as usize, k),
+                    Child::Inner(node) => stack.push((node, below[k])),
+                    Child::Leaf { .. } => leaf(index as usize, k, below[k]),
                 }
             }
         }
@@ -96,11 +102,11 @@ impl Bvh {
     /// Calls `found` with the number of every item in a leaf whose box satisfies `wanted`; boxes above it must satisfy
     /// it too.
     pub fn for_each(&self, wanted: impl Fn(&Aabb) -> bool, mut found: impl FnMut(usize)) {
-        let mask = |index: usize| {
+        let visit = |index: usize, ()| {
             let node = &self.nodes[index];
-            (0..WIDTH).filter(|&k| wanted(&node.bounds[k])).fold(0, |mask, k| mask | 1 << k)
+            ((0..WIDTH).filter(|&k| wanted(&node.bounds[k])).fold(0, |mask, k| mask | 1 << k), [(); WIDTH])
         };
-        self.traverse(&mut Vec::new(), mask, |node, k| {
+        self.traverse(&mut Vec::new(), (), visit, |node, k, ()| {
             let places = self.places(self.nodes[node].children[k]);
             self.items[places].iter().for_each(|&item| found(item as usize));
         });

@@ -1,4 +1,5 @@
-use super::{Cancelled, Monitor};
+use super::{Cancelled, Lattice, Monitor};
+use crate::math::Vec3;
 use rayon::prelude::*;
 
 /// Samples between two reports to the monitor: some 5 ms of work on one thread.
@@ -30,9 +31,9 @@ pub fn zeroed<T: Clone + Default>(len: usize) -> Result<Vec<T>, OutOfMemory> {
 ///
 /// # Errors
 /// If and only if the monitor cancels; the values are then partly set.
-pub fn fill_in_blocks<T: Send>(
+pub fn fill_in_blocks<T: Send, S: Default>(
     values: &mut [T],
-    value: impl Fn(usize, &mut Vec<u32>) -> T + Sync,
+    value: impl Fn(usize, &mut S) -> T + Sync,
     stage: &str,
     monitor: &dyn Monitor,
 ) -> Result<(), Cancelled> {
@@ -40,13 +41,67 @@ pub fn fill_in_blocks<T: Send>(
     for (block, run) in values.chunks_mut(SAMPLES_PER_REPORT).enumerate() {
         let start = block * SAMPLES_PER_REPORT;
         monitor.report(start as f64 / total as f64, stage)?;
-        run.par_chunks_mut(SAMPLES_PER_TASK).enumerate().for_each_init(Vec::new, |scratch, (task, chunk)| {
-            for (offset, slot) in chunk.iter_mut().enumerate() {
-                *slot = value(start + task * SAMPLES_PER_TASK + offset, scratch);
-            }
-        });
+        run.par_chunks_mut(SAMPLES_PER_TASK).enumerate().for_each_init(
+            S::default,
+            |scratch, (task, chunk)| {
+                for (offset, slot) in chunk.iter_mut().enumerate() {
+                    *slot = value(start + task * SAMPLES_PER_TASK + offset, scratch);
+                }
+            },
+        );
     }
     monitor.report(1.0, stage)
+}
+
+/// Samples along each axis of a cube of lattice samples.
+const CUBE: usize = 4;
+/// Most samples in a block of a lattice.
+pub const BLOCK: usize = CUBE * CUBE * CUBE;
+
+/// Computes the values of a lattice block by block, 4 × 4 × 4 samples (8 × 8 in a lattice of one layer), in parallel, and
+/// gives each to `store(its index, value)` on the calling thread. Samples of a block lie close together, which
+/// `values(points, results, scratch)` can use.
+///
+/// # Errors
+/// If and only if the monitor cancels.
+pub fn for_each_lattice_block<T: Copy + Default + Send, S: Default>(
+    lattice: &Lattice,
+    values: impl Fn(&[Vec3], &mut [T], &mut S) + Sync,
+    mut store: impl FnMut(usize, T),
+    stage: &str,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
+    let shape = if lattice.counts[2] == 1 { [2 * CUBE, 2 * CUBE, 1] } else { [CUBE; 3] };
+    let blocks = [0, 1, 2].map(|axis| lattice.counts[axis].div_ceil(shape[axis]));
+    let total: usize = blocks.iter().product();
+    let per_report = SAMPLES_PER_REPORT / BLOCK;
+    for first in (0..total).step_by(per_report) {
+        monitor.report(first as f64 / total as f64, stage)?;
+        let run = first..total.min(first + per_report);
+        let results: Vec<_> = (run.into_par_iter())
+            .map_init(S::default, |scratch, block| {
+                let at = [block % blocks[0], block / blocks[0] % blocks[1], block / (blocks[0] * blocks[1])];
+                let samples = samples_of_block(lattice, at, shape);
+                let points: Vec<Vec3> = samples.iter().map(|s| lattice.point(*s)).collect();
+                let mut results = [T::default(); BLOCK];
+                values(&points, &mut results[..points.len()], scratch);
+                (samples, results)
+            })
+            .collect();
+        for (samples, results) in results {
+            samples.iter().zip(results).for_each(|(sample, result)| store(lattice.index(*sample), result));
+        }
+    }
+    monitor.report(1.0, stage)
+}
+
+/// The samples of a block, x fastest, cut at the lattice's far sides.
+fn samples_of_block(lattice: &Lattice, block: [usize; 3], shape: [usize; 3]) -> Vec<[usize; 3]> {
+    let range = |axis: usize| {
+        let start = block[axis] * shape[axis];
+        start..lattice.counts[axis].min(start + shape[axis])
+    };
+    range(2).flat_map(|k| range(1).flat_map(move |j| range(0).map(move |i| [i, j, k]))).collect()
 }
 
 #[cfg(test)]
@@ -60,7 +115,7 @@ mod tests {
         let mut values = vec![0; 40_000];
         let last = Cell::new(0.0);
         let monitor = |fraction: f64, _: &str| last.replace(fraction) <= fraction;
-        fill_in_blocks(&mut values, |i, _| 3 * i, "test", &monitor).unwrap();
+        fill_in_blocks(&mut values, |i, ()| 3 * i, "test", &monitor).unwrap();
         assert!(values.iter().enumerate().all(|(i, v)| *v == 3 * i));
         assert_eq!(last.get(), 1.0);
     }
@@ -69,9 +124,24 @@ mod tests {
     fn cancelling_stops_before_the_next_block() {
         let mut values = vec![0; 40_000];
         let monitor = |fraction: f64, _: &str| fraction == 0.0;
-        assert_eq!(fill_in_blocks(&mut values, |_, _| 1, "test", &monitor), Err(Cancelled));
+        assert_eq!(fill_in_blocks(&mut values, |_, ()| 1, "test", &monitor), Err(Cancelled));
         assert_eq!(values.iter().sum::<usize>(), SAMPLES_PER_REPORT);
         assert!(zeroed::<u8>(usize::MAX / 2).is_err());
-        assert!(fill_in_blocks(&mut Vec::<u8>::new(), |_, _| 1, "test", &Silent).is_ok());
+        assert!(fill_in_blocks(&mut Vec::<u8>::new(), |_, ()| 1, "test", &Silent).is_ok());
+    }
+
+    #[test]
+    fn every_sample_of_a_lattice_is_in_one_block() {
+        for counts in [[9, 5, 7], [17, 20, 1], [1, 1, 1], [3, 1, 40]] {
+            let lattice = Lattice { origin: Vec3::ZERO, spacing: Vec3::ONE, counts };
+            let mut seen = vec![0; lattice.len()];
+            let values = |points: &[Vec3], results: &mut [Vec3], (): &mut ()| results.copy_from_slice(points);
+            let store = |index: usize, value: Vec3| {
+                assert_eq!(value, lattice.point(lattice.sample(index)));
+                seen[index] += 1;
+            };
+            for_each_lattice_block(&lattice, values, store, "test", &Silent).unwrap();
+            assert!(seen.iter().all(|s| *s == 1));
+        }
     }
 }

@@ -23,7 +23,7 @@ pub(super) fn voronoi_areas(
     monitor: &dyn Monitor,
 ) -> Result<Vec<f64>, Cancelled> {
     let mut areas = vec![0.0; points.len()];
-    let area = |i: usize, _: &mut Vec<u32>| cell_area(i, points, normals, neighbourhoods.of(i));
+    let area = |i: usize, (): &mut ()| cell_area(i, points, normals, neighbourhoods.of(i));
     fill_in_blocks(&mut areas, area, "areas", monitor)?;
     Ok(areas)
 }

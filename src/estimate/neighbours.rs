@@ -14,7 +14,7 @@ impl Neighbourhoods {
         let tree = ImmutableKdTree::new_from_slice(&coordinates).expect("the points are finite");
         let wanted = NonZero::new(count + 1).expect("one more than a count is not zero");
         let mut lists = vec![Vec::new(); points.len()];
-        let neighbours = |i: usize, _: &mut Vec<u32>| {
+        let neighbours = |i: usize, (): &mut ()| {
             let mut found: Vec<(f64, u32)> = (tree.query(&coordinates[i]))
                 .nearest_n::<SquaredEuclidean<f64>>(wanted)
                 .execute()

@@ -9,7 +9,7 @@ pub(super) fn plane_normals(
     monitor: &dyn Monitor,
 ) -> Result<Vec<Vec3>, Cancelled> {
     let mut normals = vec![Vec3::ZERO; points.len()];
-    let normal = |i: usize, _: &mut Vec<u32>| {
+    let normal = |i: usize, (): &mut ()| {
         let mut patch = vec![points[i]];
         patch.extend(neighbourhoods.of(i).iter().map(|&j| points[j as usize]));
         fit_plane(&patch).normal

@@ -5,6 +5,7 @@ use super::seeds::Cell;
 use crate::data::{Cancelled, Monitor, SurfaceMesh, fill_in_blocks};
 use crate::math::Vec3;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::marker::PhantomData;
 
 /// Cubic cells in space: node (i, j, k) lies at `origin + spacing * (i, j, k)`, its cell is on the positive side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,13 +50,14 @@ fn corner_of([x, y, z]: Cell, corner: usize) -> Cell {
 ///
 /// # Errors
 /// If and only if the surface spans more than half a million cells, or the monitor cancels.
-pub fn trace_surface(
+pub fn trace_surface<S: Default>(
     grid: &SurfaceGrid,
     seeds: &[Cell],
-    inside: impl Fn(Vec3, &mut Vec<u32>) -> bool + Sync,
+    inside: impl Fn(Vec3, &mut S) -> bool + Sync,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, TraceError> {
-    let mut continuation = Continuation { grid, inside: &inside, nodes: FxHashMap::default() };
+    let mut continuation =
+        Continuation { grid, inside: &inside, nodes: FxHashMap::default(), scratch: PhantomData };
     let active = continuation.active_cells(seeds, monitor)?;
     let edges = crossed_edges(&active);
     let positions = continuation.vertices(&edges, monitor)?;
@@ -87,13 +89,14 @@ fn crossed_edges(active: &[(Cell, u8)]) -> Vec<u64> {
     edges
 }
 
-struct Continuation<'a, F> {
+struct Continuation<'a, F, S> {
     grid: &'a SurfaceGrid,
     inside: &'a F,
     nodes: FxHashMap<u64, bool>,
+    scratch: PhantomData<fn() -> S>,
 }
 
-impl<F: Fn(Vec3, &mut Vec<u32>) -> bool + Sync> Continuation<'_, F> {
+impl<S: Default, F: Fn(Vec3, &mut S) -> bool + Sync> Continuation<'_, F, S> {
     fn position(&self, [x, y, z]: Cell) -> Vec3 {
         self.grid.origin + self.grid.spacing * Vec3::new(f64::from(x), f64::from(y), f64::from(z))
     }
@@ -133,8 +136,7 @@ impl<F: Fn(Vec3, &mut Vec<u32>) -> bool + Sync> Continuation<'_, F> {
         missing.sort_unstable();
         missing.dedup();
         let mut values = vec![false; missing.len()];
-        let value =
-            |i: usize, scratch: &mut Vec<u32>| (self.inside)(self.position(cell_of(missing[i])), scratch);
+        let value = |i: usize, scratch: &mut S| (self.inside)(self.position(cell_of(missing[i])), scratch);
         // How far a continuation has to go is not known: progress begins with the vertices.
         let undetermined = |_: f64, stage: &str| monitor.report(0.0, stage).is_ok();
         fill_in_blocks(&mut values, value, "surface cells", &undetermined)?;
@@ -144,7 +146,7 @@ impl<F: Fn(Vec3, &mut Vec<u32>) -> bool + Sync> Continuation<'_, F> {
 
     fn vertices(&self, edges: &[u64], monitor: &dyn Monitor) -> Result<Vec<Vec3>, Cancelled> {
         let mut positions = vec![Vec3::ZERO; edges.len()];
-        let vertex = |i: usize, scratch: &mut Vec<u32>| {
+        let vertex = |i: usize, scratch: &mut S| {
             let (node, axis) = (cell_of(edges[i]), (edges[i] >> 60) as usize);
             let start = self.position(node);
             let at = |t: f64| start + t * self.grid.spacing * Vec3::AXES[axis];
@@ -195,7 +197,7 @@ mod tests {
             .iter()
             .map(|p| crate::levelset::cells_of_point(*p, grid.origin, Vec3::splat(spacing)))
             .collect();
-        trace_surface(&grid, &cells, |p, _| inside(p), &Silent).unwrap()
+        trace_surface(&grid, &cells, |p, ()| inside(p), &Silent).unwrap()
     }
 
     #[test]
@@ -219,7 +221,7 @@ mod tests {
     fn random_cells_still_make_a_manifold() {
         // All 256 cases, next to each other in all ways: a hash of the node decides.
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
-        let inside = |p: Vec3, _: &mut Vec<u32>| {
+        let inside = |p: Vec3, (): &mut ()| {
             let n = p.round();
             let in_box = n.cmpgt(Vec3::ZERO).all() && n.cmplt(Vec3::splat(14.0)).all();
             let h = (n.x * 7919.0 + n.y * 104_729.0 + n.z * 1_299_709.0).sin() * 43_758.545;
@@ -235,6 +237,6 @@ mod tests {
     fn surfaces_too_large_for_the_keys_are_refused() {
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
         let cell = [LIMIT, 0, 0];
-        assert_eq!(trace_surface(&grid, &[cell], |_, _| true, &Silent), Err(TraceError::TooFine));
+        assert_eq!(trace_surface(&grid, &[cell], |_, ()| true, &Silent), Err(TraceError::TooFine));
     }
 }

@@ -3,7 +3,7 @@ use crate::bvh::Bvh;
 use crate::data::{Lattice, LatticeError, Layer, Shape, TriangleSoup};
 use crate::levelset::{PlaneGrid, trace_contours};
 use crate::math::{Aabb, Vec2, Vec3};
-use crate::winding::WindingField;
+use crate::winding::{Scratch, WindingField};
 use rayon::prelude::*;
 
 /// Nodes along the longer side of the coarse scan for level sets that come near no geometry: the bulges in the openings
@@ -48,8 +48,8 @@ impl<'a> Slicer<'a> {
 
     /// The polygons of one layer.
     pub fn layer(&self, span: &Span) -> Layer {
-        let mut stack = Vec::new();
-        let mut inside = |p: Vec2| self.field.is_above(p.extend(span.sample), 0.5, &mut stack);
+        let mut scratch = Scratch::default();
+        let mut inside = |p: Vec2| self.field.is_above(p.extend(span.sample), 0.5, &mut scratch);
         let mut seeds = self.seeds_of_geometry(span.sample);
         seeds.extend(self.seeds_of_scan(&mut inside));
         seeds.sort_unstable();

@@ -1,9 +1,11 @@
 use super::voxel_surface;
 use crate::data::{
-    Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, SurfaceMesh, fill_in_blocks, zeroed,
+    Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, SurfaceMesh, fill_in_blocks,
+    for_each_lattice_block, zeroed,
 };
 use crate::levelset::cells_of_shape;
-use crate::winding::WindingField;
+use crate::math::Vec3;
+use crate::winding::{Scratch, WindingField};
 
 /// Which samples are asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -123,12 +125,11 @@ fn every_sample(
     monitor: &dyn Monitor,
 ) -> Result<Vec<u8>, VoxelError> {
     let mut bits = zeroed(lattice.len().div_ceil(8))?;
-    let eight = |byte: usize, stack: &mut Vec<u32>| {
-        let samples = 8 * byte..lattice.len().min(8 * byte + 8);
-        let inside = samples.map(|i| field.exceeds(lattice.point(lattice.sample(i)), threshold, stack));
-        inside.enumerate().fold(0, |bits, (bit, inside)| bits | u8::from(inside) << bit)
+    let block = |points: &[Vec3], results: &mut [bool], scratch: &mut Scratch| {
+        field.exceeds_block(points, threshold, results, scratch);
     };
-    fill_in_blocks(&mut bits, eight, "voxels", monitor)?;
+    let store = |index: usize, inside: bool| bits[index / 8] |= u8::from(inside) << (index % 8);
+    for_each_lattice_block(lattice, block, store, "voxels", monitor)?;
     Ok(bits)
 }
 
@@ -154,8 +155,8 @@ fn along_the_level_set(
         .collect();
     while !wave.is_empty() {
         let mut found = zeroed::<bool>(wave.len())?;
-        let inside = |i: usize, stack: &mut Vec<u32>| {
-            field.exceeds(lattice.point(lattice.sample(wave[i])), threshold, stack)
+        let inside = |i: usize, scratch: &mut Scratch| {
+            field.exceeds(lattice.point(lattice.sample(wave[i])), threshold, scratch)
         };
         let undetermined = |_: f64, stage: &str| monitor.report(0.0, stage).is_ok();
         fill_in_blocks(&mut found, inside, "voxels", &undetermined)?;
@@ -215,7 +216,7 @@ fn fill_unknown(field: &WindingField, lattice: &Lattice, threshold: f64, states:
             let sample = lattice.sample(index);
             let before = (0..3).find(|&axis| sample[axis] > 0).map(|axis| states[index - steps[axis]]);
             states[index] = before.unwrap_or_else(|| {
-                let inside = field.exceeds(lattice.point(sample), threshold, &mut Vec::new());
+                let inside = field.exceeds(lattice.point(sample), threshold, &mut Scratch::default());
                 if inside { State::Inside } else { State::Outside }
             });
         }

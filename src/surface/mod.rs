@@ -2,7 +2,7 @@
 use crate::data::{Lattice, LatticeError, Monitor, SurfaceMesh};
 use crate::levelset::{SurfaceGrid, TraceError, cells_of_shape, trace_surface};
 use crate::math::Vec3;
-use crate::winding::WindingField;
+use crate::winding::{Scratch, WindingField};
 
 /// How a surface is traced.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +51,6 @@ pub fn extract(
     };
     let grid = SurfaceGrid { origin: lattice.origin, spacing: lattice.spacing.x };
     let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
-    let inside = |p: Vec3, stack: &mut Vec<u32>| field.is_above(p, config.level, stack);
+    let inside = |p: Vec3, scratch: &mut Scratch| field.is_above(p, config.level, scratch);
     Ok(trace_surface(&grid, &seeds, inside, monitor)?)
 }

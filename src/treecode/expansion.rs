@@ -7,6 +7,7 @@ use super::moments::Moments;
 use crate::bvh::WIDTH;
 use crate::math::Vec3;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 use wide::f32x4;
 
 /// How many terms of the expansion are summed (Barill et al. 2018, section 3.2.1).
@@ -18,39 +19,60 @@ pub enum Order {
     Two,
 }
 
-/// A query in the tree's unit frame, each coordinate as the sum of two 32-bit floats: near a cluster a single one
-/// would lose the direction.
+/// Positions in the tree's unit frame, one in each lane, each coordinate as the sum of two 32-bit floats: near a cluster
+/// a single one would lose the direction.
 #[derive(Clone, Copy)]
-pub(super) struct Query {
+pub(super) struct Positions {
     high: [f32x4; 3],
     low: [f32x4; 3],
 }
 
-impl Query {
-    pub fn new(q: Vec3) -> Query {
-        let parts = q.to_array().map(split);
-        Query { high: parts.map(|p| f32x4::splat(p.0)), low: parts.map(|p| f32x4::splat(p.1)) }
+impl Positions {
+    fn new(points: [Vec3; WIDTH]) -> Positions {
+        let lanes = |axis: usize, part: fn(f64) -> f32| f32x4::from(points.map(|p| part(p[axis])));
+        Positions {
+            high: [0, 1, 2].map(|axis| lanes(axis, high)),
+            low: [0, 1, 2].map(|axis| lanes(axis, low)),
+        }
+    }
+
+    /// The same point in all lanes.
+    pub fn splat(point: Vec3) -> Positions {
+        Positions::new([point; WIDTH])
+    }
+
+    #[inline(always)]
+    fn minus(&self, other: &Positions) -> [f32x4; 3] {
+        [0, 1, 2].map(|i| (self.high[i] - other.high[i]) + (self.low[i] - other.low[i]))
+    }
+
+    fn lane(&self, lane: usize) -> Vec3 {
+        let exact = |axis: usize| {
+            f64::from(self.high[axis].to_array()[lane]) + f64::from(self.low[axis].to_array()[lane])
+        };
+        Vec3::new(exact(0), exact(1), exact(2))
     }
 }
 
-fn split(x: f64) -> (f32, f32) {
-    let high = x as f32;
-    (high, (x - f64::from(high)) as f32)
+fn high(x: f64) -> f32 {
+    x as f32
 }
 
-/// Far fields of the children of one node. An empty child has no coefficients and lies far outside the unit frame.
-#[derive(Clone, Copy, Debug)]
+fn low(x: f64) -> f32 {
+    (x - f64::from(high(x))) as f32
+}
+
+/// Far fields of four clusters, one in each lane: the children of a node. An empty child has no coefficients and lies
+/// far outside the unit frame.
+#[derive(Clone, Copy)]
 pub(super) struct Expansion {
-    center_high: [f32x4; 3],
-    center_low: [f32x4; 3],
+    centers: Positions,
     radius_squared: f32x4,
-    dipole: [f32x4; 3],
-    quadrupole: [f32x4; 5],
-    octupole: [f32x4; 7],
+    series: Series,
 }
 
 /// Where empty children are put: far from every query of interest, so that no 0/0 arises.
-const NOWHERE: f64 = 1e6;
+const NOWHERE: Vec3 = Vec3::splat(1e6);
 
 impl Expansion {
     /// Packs moments and radii (farthest source point from the centre), both in the unit frame.
@@ -59,42 +81,111 @@ impl Expansion {
         let lane = |f: &dyn Fn(&Coefficients) -> f64| {
             f32x4::from(coefficients.each_ref().map(|c| c.as_ref().map_or(0.0, |c| f(c) as f32)))
         };
-        let center =
-            |axis: usize| children.each_ref().map(|c| c.as_ref().map_or(NOWHERE, |c| c.0.center[axis]));
         Expansion {
-            center_high: [0, 1, 2].map(|axis| f32x4::from(center(axis).map(|x| split(x).0))),
-            center_low: [0, 1, 2].map(|axis| f32x4::from(center(axis).map(|x| split(x).1))),
+            centers: Positions::new(children.each_ref().map(|c| c.as_ref().map_or(NOWHERE, |c| c.0.center))),
             radius_squared: f32x4::from(
                 children.each_ref().map(|c| c.as_ref().map_or(0.0, |c| (c.1 * c.1) as f32)),
             ),
-            dipole: [0, 1, 2].map(|k| lane(&|c| c.dipole[k])),
-            quadrupole: [0, 1, 2, 3, 4].map(|k| lane(&|c| c.quadrupole[k])),
-            octupole: [0, 1, 2, 3, 4, 5, 6].map(|k| lane(&|c| c.octupole[k])),
+            series: Series {
+                dipole: [0, 1, 2].map(|k| lane(&|c| c.dipole[k])),
+                quadrupole: [0, 1, 2, 3, 4].map(|k| lane(&|c| c.quadrupole[k])),
+                octupole: [0, 1, 2, 3, 4, 5, 6].map(|k| lane(&|c| c.octupole[k])),
+            },
         }
     }
 
-    /// Winding numbers of the children that are farther than β radii (0 for the others), and which must be opened.
-    ///
-    /// `beta_squared` is the opening parameter of the paper, squared: far means |R|² > β² r².
-    #[inline(always)]
-    pub fn far_field(&self, q: &Query, order: Order, beta_squared: f32x4) -> (f32x4, u32) {
-        let [x, y, z] =
-            [0, 1, 2].map(|i| (q.high[i] - self.center_high[i]) + (q.low[i] - self.center_low[i]));
-        let square = x * x + y * y + z * z;
-        let far = square.simd_gt(beta_squared * self.radius_squared);
-        let open = !far.to_bitmask() & 0b1111;
-        if open == 0b1111 {
-            return (f32x4::splat(0.0), open);
+    /// The cluster of one lane in all four, with its centre relative to `origin`.
+    pub fn cluster(&self, lane: usize, origin: Vec3) -> Cluster {
+        let one = |v: f32x4| f32x4::splat(v.to_array()[lane]);
+        Cluster {
+            center: (self.centers.lane(lane) - origin).to_array().map(|x| f32x4::splat(x as f32)),
+            radius_squared: one(self.radius_squared),
+            series: Series {
+                dipole: self.series.dipole.map(one),
+                quadrupole: self.series.quadrupole.map(one),
+                octupole: self.series.octupole.map(one),
+            },
         }
-        let inverse = f32x4::splat(1.0) / square.sqrt();
-        let (x, y, z) = (x * inverse, y * inverse, z * inverse);
+    }
+
+    /// Which clusters are farther from the query than β radii, |R|² > β² r², as bits; and their winding numbers, 0 in the
+    /// other lanes.
+    #[inline(always)]
+    pub fn far_field(&self, query: &Positions, order: Order, beta_squared: f32x4) -> (f32x4, u32) {
+        let offset = query.minus(&self.centers);
+        let square = squared_length(&offset);
+        let is_far = square.simd_gt(beta_squared * self.radius_squared);
+        let far = is_far.to_bitmask();
+        if far == 0 { (f32x4::splat(0.0), 0) } else { (is_far & self.series.at(offset, square, order), far) }
+    }
+}
+
+/// One cluster for four queries near an origin. There, single 32-bit floats do: the error is a part in 10⁷ of the distance
+/// from the origin.
+pub(super) struct Cluster {
+    center: [f32x4; 3],
+    radius_squared: f32x4,
+    series: Series,
+}
+
+impl Cluster {
+    /// Whether every point within `radius` of the origin is farther than β radii of the cluster.
+    pub fn is_far_from_all(&self, radius: f32, beta: f32) -> bool {
+        let [square, own] = [squared_length(&self.center), self.radius_squared].map(|v| v.to_array()[0]);
+        square.sqrt() > beta * own.sqrt() + radius
+    }
+
+    /// The winding numbers at four queries, given relative to the origin.
+    #[inline(always)]
+    pub fn field(&self, queries: &[f32x4; 3], order: Order) -> f32x4 {
+        let offset = [0, 1, 2].map(|i| queries[i] - self.center[i]);
+        self.series.at(offset, squared_length(&offset), order)
+    }
+
+    /// Which of the `wanted` queries are farther than β radii, and the winding numbers there, 0 in the other lanes.
+    #[inline(always)]
+    pub fn far_field(
+        &self,
+        queries: &[f32x4; 3],
+        order: Order,
+        beta_squared: f32x4,
+        wanted: u32,
+    ) -> (f32x4, u32) {
+        let offset = [0, 1, 2].map(|i| queries[i] - self.center[i]);
+        let square = squared_length(&offset);
+        let is_far = square.simd_gt(beta_squared * self.radius_squared) & LANES[wanted as usize];
+        let far = is_far.to_bitmask();
+        if far == 0 { (f32x4::splat(0.0), 0) } else { (is_far & self.series.at(offset, square, order), far) }
+    }
+}
+
+#[inline(always)]
+fn squared_length([x, y, z]: &[f32x4; 3]) -> f32x4 {
+    *x * *x + *y * *y + *z * *z
+}
+
+/// The coefficients of four far fields.
+#[derive(Clone, Copy)]
+struct Series {
+    dipole: [f32x4; 3],
+    quadrupole: [f32x4; 5],
+    octupole: [f32x4; 7],
+}
+
+impl Series {
+    /// Σ Hₙ(R) / |R|^(2n+1), given |R|² too.
+    #[inline(always)]
+    fn at(&self, offset: [f32x4; 3], square: f32x4, order: Order) -> f32x4 {
+        // The root and the quotient do not wait for each other.
+        let inverse_square = f32x4::splat(1.0) / square;
+        let inverse = square.sqrt() * inverse_square;
+        let [x, y, z] = offset.map(|c| c * inverse);
         let [d0, d1, d2] = self.dipole;
         let mut sum = d0 * x + d1 * y + d2 * z;
         if order >= Order::One {
             let (xx, yy, zz) = (x * x, y * y, z * z);
             let [a, b, c, d, e] = self.quadrupole;
-            let quadrupole = a * (xx - zz) + b * (yy - zz) + x * (c * y + d * z) + e * (y * z);
-            let mut higher = quadrupole;
+            let mut higher = a * (xx - zz) + b * (yy - zz) + x * (c * y + d * z) + e * (y * z);
             if order >= Order::Two {
                 let [o0, o1, o2, o3, o4, o5, o6] = self.octupole;
                 let (three_x, three_y) = (xx + xx + xx, yy + yy + yy);
@@ -102,13 +193,20 @@ impl Expansion {
                 let octupole = x * (o0 * (y * z) + o2 * (xx - three_y) + o5 * four_z)
                     + y * (o3 * (three_x - yy) + o6 * four_z)
                     + z * (o1 * (xx - yy) + o4 * (zz + zz - three_x - three_y));
-                higher = quadrupole + octupole * inverse;
+                higher += octupole * inverse;
             }
             sum += higher * inverse;
         }
-        (far.bitselect(sum * (inverse * inverse), f32x4::splat(0.0)), open)
+        sum * inverse_square
     }
 }
+
+/// All bits of lane k set where bit k of the index is.
+static LANES: LazyLock<[f32x4; 16]> = LazyLock::new(|| {
+    std::array::from_fn(|bits| {
+        f32x4::from(std::array::from_fn(|k| f32::from_bits(if bits >> k & 1 == 1 { u32::MAX } else { 0 })))
+    })
+});
 
 /// Coefficients of the harmonic polynomials of one cluster, all constant factors included:
 /// dipole x, y, z; quadrupole x²−z², y²−z², xy, xz, yz;

@@ -8,4 +8,4 @@ mod tree;
 
 pub use expansion::Order;
 pub use kernel::{Kernel, Lanes, Quadrature};
-pub use tree::{Tree, TreeConfig};
+pub use tree::{Scratch, Tree, TreeConfig};

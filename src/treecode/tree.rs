@@ -1,7 +1,8 @@
-use super::expansion::{Expansion, Order, Query};
+use super::expansion::{Expansion, Order, Positions};
 use super::kernel::{Kernel, Quadrature};
 use super::moments::Moments;
-use crate::bvh::{Bvh, Child, WIDTH};
+use crate::bvh::{Bvh, Child, Stack, WIDTH};
+use crate::data::BLOCK;
 use crate::math::{Aabb, Vec3};
 use rayon::prelude::*;
 use wide::{f32x4, f64x4};
@@ -22,6 +23,54 @@ pub struct Tree<K: Kernel> {
     blocks: Vec<K::Block>,
     /// Where the blocks of each leaf child begin, and how many there are.
     leaf_blocks: Vec<[(u32, u32); WIDTH]>,
+}
+
+/// Scratch space of evaluations, kept by the caller so that many share it.
+#[derive(Default)]
+pub struct Scratch {
+    single: Stack,
+    block: Stack<u64>,
+}
+
+// A walk for a block carries one bit for each query.
+const _: () = assert!(BLOCK == u64::BITS as usize);
+
+/// Queries of one walk, relative to their middle, in the tree's unit frame.
+struct Block {
+    center: Vec3,
+    /// Distance from the middle to the farthest query, rounded up.
+    radius: f32,
+    /// One bit for each query that is finite.
+    active: u64,
+    positions: [[f32x4; 3]; BLOCK / WIDTH],
+    groups: usize,
+}
+
+impl Block {
+    fn new(queries: &[Vec3], frame: &Frame) -> Block {
+        let active = (0..queries.len()).filter(|&i| queries[i].is_finite()).fold(0, |bits, i| bits | 1 << i);
+        let local: Vec<Vec3> = queries.iter().map(|q| frame.local(*q)).collect();
+        let bounds = Aabb::around(local.iter().copied().filter(|q| q.is_finite()));
+        let center = bounds.center();
+        // Lanes without a query take part in the arithmetic, from the middle, and are left out at the end.
+        let offset = |i: usize| match local.get(i) {
+            Some(q) if q.is_finite() => *q - center,
+            _ => Vec3::ZERO,
+        };
+        let lanes =
+            |g: usize, axis: usize| f32x4::new(std::array::from_fn(|k| offset(WIDTH * g + k)[axis] as f32));
+        Block {
+            center,
+            radius: (0.5 * bounds.diagonal() * (1.0 + 1e-6)) as f32,
+            active,
+            positions: std::array::from_fn(|g| [0, 1, 2].map(|axis| lanes(g, axis))),
+            groups: queries.len().div_ceil(WIDTH),
+        }
+    }
+
+    fn groups(&self) -> impl Iterator<Item = &[f32x4; 3]> {
+        self.positions[..self.groups].iter()
+    }
 }
 
 /// Moves the sources into a unit cube about the origin. The winding number does not change with scale, but powers of
@@ -60,29 +109,87 @@ impl<K: Kernel> Tree<K> {
 
     /// The winding number at `q`: clusters farther than β times their radius by their expansion, the rest exactly
     /// (Barill et al. 2018, algorithm 1). NaN where `q` is not finite.
-    pub fn at(&self, q: Vec3, order: Order, beta: f64, stack: &mut Vec<u32>) -> f64 {
+    pub fn at(&self, q: Vec3, order: Order, beta: f64, scratch: &mut Scratch) -> f64 {
         if !q.is_finite() {
             return f64::NAN;
         }
-        let query = Query::new(self.frame.local(q));
+        let query = Positions::splat(self.frame.local(q));
         let lanes = q.to_array().map(f64x4::splat);
         let beta_squared = f32x4::splat((beta * beta) as f32);
         let mut far = f32x4::splat(0.0);
         let mut near = K::sum();
-        let visit = |node: usize| {
-            let (field, open) = self.expansions[node].far_field(&query, order, beta_squared);
+        let visit = |node: usize, ()| {
+            let (field, is_far) = self.expansions[node].far_field(&query, order, beta_squared);
             far += field;
-            open
+            (!is_far & 0b1111, [(); WIDTH])
         };
-        let leaf = |node: usize, child: usize| {
-            let (first, count) = self.leaf_blocks[node][child];
-            for block in &self.blocks[first as usize..(first + count) as usize] {
-                K::add(&mut near, block, &lanes);
-            }
+        let leaf = |node: usize, child: usize, ()| {
+            self.leaf(node, child).iter().for_each(|block| K::add(&mut near, block, &lanes));
         };
-        self.bvh.traverse(stack, visit, leaf);
+        self.bvh.traverse(&mut scratch.single, (), visit, leaf);
         let [a, b, c, d] = far.to_array().map(f64::from);
         K::total(near) + ((a + b) + (c + d))
+    }
+
+    /// Winding numbers at up to [`BLOCK`] queries that lie close together, in one walk: each query takes the same clusters
+    /// as in [`Tree::at`], but a cluster is evaluated for four queries at a time.
+    pub fn at_block(
+        &self,
+        queries: &[Vec3],
+        values: &mut [f64],
+        order: Order,
+        beta: f64,
+        scratch: &mut Scratch,
+    ) {
+        let block = Block::new(queries, &self.frame);
+        let beta_squared = f32x4::splat((beta * beta) as f32);
+        let mut far = [f32x4::splat(0.0); BLOCK / WIDTH];
+        let mut near: Vec<K::Sum> = queries.iter().map(|_| K::sum()).collect();
+        let visit = |node: usize, wanted: u64| {
+            let mut below = [0; WIDTH];
+            let mut open = 0;
+            for (k, rest) in below.iter_mut().enumerate() {
+                if self.bvh.nodes()[node].children[k] == Child::Empty {
+                    continue;
+                }
+                let cluster = self.expansions[node].cluster(k, block.center);
+                if wanted == block.active && cluster.is_far_from_all(block.radius, beta as f32) {
+                    for (positions, sum) in block.groups().zip(&mut far) {
+                        *sum += cluster.field(positions, order);
+                    }
+                    continue;
+                }
+                let mut done = 0;
+                for (g, (positions, sum)) in block.groups().zip(&mut far).enumerate() {
+                    let four = (wanted >> (WIDTH * g)) as u32 & 0b1111;
+                    let (field, is_far) = cluster.far_field(positions, order, beta_squared, four);
+                    *sum += field;
+                    done |= u64::from(is_far) << (WIDTH * g);
+                }
+                *rest = wanted & !done;
+                open |= u32::from(*rest != 0) << k;
+            }
+            (open, below)
+        };
+        let leaf = |node: usize, child: usize, mut wanted: u64| {
+            while wanted != 0 {
+                let i = wanted.trailing_zeros() as usize;
+                wanted &= wanted - 1;
+                let lanes = queries[i].to_array().map(f64x4::splat);
+                self.leaf(node, child).iter().for_each(|block| K::add(&mut near[i], block, &lanes));
+            }
+        };
+        self.bvh.traverse(&mut scratch.block, block.active, visit, leaf);
+        let far = far.map(|f| f.to_array());
+        for (i, (value, near)) in values.iter_mut().zip(near).enumerate() {
+            let is_active = block.active >> i & 1 == 1;
+            *value = if is_active { K::total(near) + f64::from(far[i / WIDTH][i % WIDTH]) } else { f64::NAN };
+        }
+    }
+
+    fn leaf(&self, node: usize, child: usize) -> &[K::Block] {
+        let (first, count) = self.leaf_blocks[node][child];
+        &self.blocks[first as usize..(first + count) as usize]
     }
 
     /// The sum over every source singly: exact to rounding, and the slow way.

@@ -1,9 +1,9 @@
 use crate::data::{
-    Cancelled, Grid, Lattice, LatticeError, Monitor, OrientedCloud, OutOfMemory, Shape, TriangleSoup,
-    fill_in_blocks, zeroed,
+    BLOCK, Cancelled, Grid, Lattice, LatticeError, Monitor, OrientedCloud, OutOfMemory, Shape, TriangleSoup,
+    fill_in_blocks, for_each_lattice_block, zeroed,
 };
 use crate::math::{Aabb, Vec3};
-use crate::treecode::{Order, Tree, TreeConfig};
+use crate::treecode::{Order, Scratch, Tree, TreeConfig};
 use serde::Serialize;
 
 /// How a field is prepared.
@@ -94,6 +94,11 @@ enum AnyTree {
     Cloud(Tree<OrientedCloud>),
 }
 
+/// β of the first and the second look of a classification.
+const COARSE_BETA: f64 = 2.0;
+const FINE_BETA: f64 = 6.0;
+const COARSE: Accuracy = Accuracy::Explicit { order: Order::Two, beta: COARSE_BETA };
+
 /// Below this tolerance the far field's 32-bit floats are not good enough, and the direct sum takes over.
 const FINEST_EXPANSION: f64 = 1e-5;
 
@@ -133,19 +138,35 @@ impl WindingField {
 
     /// The winding number at `q`: 1 inside a closed shape, 0 outside, NaN where `q` is not finite.
     pub fn at(&self, q: Vec3, accuracy: Accuracy) -> f64 {
-        self.at_with(q, accuracy, &mut Vec::new())
+        self.at_with(q, accuracy, &mut Scratch::default())
     }
 
     /// [`WindingField::at`] with scratch space that many queries share.
-    pub fn at_with(&self, q: Vec3, accuracy: Accuracy, stack: &mut Vec<u32>) -> f64 {
-        let (order, beta) = match accuracy {
-            Accuracy::Explicit { order, beta } => (order, beta),
-            Accuracy::Tolerance(t) if t < FINEST_EXPANSION => return self.direct(q),
-            Accuracy::Tolerance(t) => (Order::Two, self.error_model().beta(t)),
-        };
-        match &self.tree {
-            AnyTree::Soup(tree) => tree.at(q, order, beta, stack),
-            AnyTree::Cloud(tree) => tree.at(q, order, beta, stack),
+    pub fn at_with(&self, q: Vec3, accuracy: Accuracy, scratch: &mut Scratch) -> f64 {
+        match (self.expansion_for(accuracy), &self.tree) {
+            (None, _) => self.direct(q),
+            (Some((order, beta)), AnyTree::Soup(tree)) => tree.at(q, order, beta, scratch),
+            (Some((order, beta)), AnyTree::Cloud(tree)) => tree.at(q, order, beta, scratch),
+        }
+    }
+
+    /// Winding numbers at up to 64 points that lie close together.
+    fn at_block(&self, points: &[Vec3], values: &mut [f64], accuracy: Accuracy, scratch: &mut Scratch) {
+        match (self.expansion_for(accuracy), &self.tree) {
+            (None, _) => points.iter().zip(values).for_each(|(q, value)| *value = self.direct(*q)),
+            (Some((order, beta)), AnyTree::Soup(tree)) => tree.at_block(points, values, order, beta, scratch),
+            (Some((order, beta)), AnyTree::Cloud(tree)) => {
+                tree.at_block(points, values, order, beta, scratch)
+            }
+        }
+    }
+
+    /// Order and β that reach an accuracy; none where only the direct sum does.
+    fn expansion_for(&self, accuracy: Accuracy) -> Option<(Order, f64)> {
+        match accuracy {
+            Accuracy::Explicit { order, beta } => Some((order, beta)),
+            Accuracy::Tolerance(t) if t < FINEST_EXPANSION => None,
+            Accuracy::Tolerance(t) => Some((Order::Two, self.error_model().beta(t))),
         }
     }
 
@@ -173,7 +194,7 @@ impl WindingField {
         accuracy: Accuracy,
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, Cancelled> {
-        let value = |i: usize, stack: &mut Vec<u32>| self.at_with(points[i], accuracy, stack);
+        let value = |i: usize, scratch: &mut Scratch| self.at_with(points[i], accuracy, scratch);
         let mut values = vec![0.0; points.len()];
         fill_in_blocks(&mut values, value, "winding numbers", monitor)?;
         Ok(values)
@@ -190,9 +211,11 @@ impl WindingField {
         monitor: &dyn Monitor,
     ) -> Result<Grid<f64>, FieldError> {
         let mut values = zeroed(lattice.len())?;
-        let value =
-            |i: usize, stack: &mut Vec<u32>| self.at_with(lattice.point(lattice.sample(i)), accuracy, stack);
-        fill_in_blocks(&mut values, value, "winding numbers", monitor)?;
+        let block = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
+            self.at_block(points, results, accuracy, scratch);
+        };
+        let store = |index: usize, value: f64| values[index] = value;
+        for_each_lattice_block(lattice, block, store, "winding numbers", monitor)?;
         Ok(Grid { lattice: *lattice, values })
     }
 
@@ -202,33 +225,53 @@ impl WindingField {
     /// If and only if `monitor` cancels.
     pub fn contains(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
         let mut inside = vec![false; points.len()];
-        let value = |i: usize, stack: &mut Vec<u32>| self.exceeds(points[i], 0.5, stack);
+        let value = |i: usize, scratch: &mut Scratch| self.exceeds(points[i], 0.5, scratch);
         fill_in_blocks(&mut inside, value, "inside test", monitor)?;
         Ok(inside)
     }
 
     /// Whether w ≥ 1/2 at `q`.
     pub fn contains_point(&self, q: Vec3) -> bool {
-        self.exceeds(q, 0.5, &mut Vec::new())
+        self.exceeds(q, 0.5, &mut Scratch::default())
     }
 
     /// Whether w ≥ `threshold` at `q`: asked coarsely first, and finer only while the answer is within the error of
     /// the threshold, at last by the direct sum.
-    pub fn exceeds(&self, q: Vec3, threshold: f64, stack: &mut Vec<u32>) -> bool {
-        for beta in [2.0, 6.0] {
-            let error = self.error_model().error(beta);
-            let w = self.at_with(q, Accuracy::Explicit { order: Order::Two, beta }, stack);
-            if (w - threshold).abs() > error || w.is_nan() {
-                return w >= threshold;
-            }
+    pub fn exceeds(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> bool {
+        let w = self.at_with(q, COARSE, scratch);
+        self.decide(q, w, threshold, scratch)
+    }
+
+    /// [`WindingField::exceeds`] at up to 64 points that lie close together.
+    pub fn exceeds_block(
+        &self,
+        points: &[Vec3],
+        threshold: f64,
+        results: &mut [bool],
+        scratch: &mut Scratch,
+    ) {
+        let mut values = [0.0; BLOCK];
+        self.at_block(points, &mut values[..points.len()], COARSE, scratch);
+        for ((q, w), result) in points.iter().zip(values).zip(results) {
+            *result = self.decide(*q, w, threshold, scratch);
         }
-        self.direct(q) >= threshold
+    }
+
+    /// Decides by the coarse value `w` at `q`, or by finer ones.
+    fn decide(&self, q: Vec3, w: f64, threshold: f64, scratch: &mut Scratch) -> bool {
+        let certain =
+            |w: f64, beta: f64| (w - threshold).abs() > self.error_model().error(beta) || w.is_nan();
+        if certain(w, COARSE_BETA) {
+            return w >= threshold;
+        }
+        let w = self.at_with(q, Accuracy::Explicit { order: Order::Two, beta: FINE_BETA }, scratch);
+        if certain(w, FINE_BETA) { w >= threshold } else { self.direct(q) >= threshold }
     }
 
     /// Whether w ≥ `level` at `q` by the paper's evaluator, for tracing level sets: the same answer each time, without
     /// the direct sum that [`WindingField::exceeds`] falls back on next to the level set, where tracing spends its time.
-    pub fn is_above(&self, q: Vec3, level: f64, stack: &mut Vec<u32>) -> bool {
-        self.at_with(q, Accuracy::of_paper(&self.shape), stack) >= level
+    pub fn is_above(&self, q: Vec3, level: f64, scratch: &mut Scratch) -> bool {
+        self.at_with(q, Accuracy::of_paper(&self.shape), scratch) >= level
     }
 }
 

@@ -6,6 +6,6 @@ mod exact;
 mod field;
 mod triangles;
 
-pub use crate::treecode::Order;
+pub use crate::treecode::{Order, Scratch};
 pub use exact::{winding, winding_of_cloud, winding_of_soup};
 pub use field::{Accuracy, FieldConfig, FieldError, FieldReport, WindingField};

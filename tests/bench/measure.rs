@@ -1,11 +1,13 @@
 //! One measured job in a process of its own, for `tests/bench/peers/compare.py`.
 //!
-//! `measure MODEL QUERIES VALUES` reads a model (a `.f64` file is a cloud: raw little-endian point, normal and area of each
-//! point), and queries as raw triples; builds the field and evaluates it with the paper's parameters; writes the values as
-//! raw f64 and prints its times as JSON.
-use fast_winding::data::{OrientedCloud, Shape, Silent, TriangleSoup};
+//! `measure MODEL RESOLUTION VALUES` reads a model (a `.f64` file is a cloud: raw little-endian point, normal and area of
+//! each point); builds the field and evaluates it with the paper's parameters on a lattice of RESOLUTION cells along the
+//! longest side, as a lattice and point by point; voxelizes; writes the lattice's values as raw f64, x fastest, and prints
+//! its times in seconds as JSON.
+use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent, TriangleSoup};
 use fast_winding::io::{self, Geometry};
 use fast_winding::math::Vec3;
+use fast_winding::solid::{VoxelConfig, voxelize};
 use fast_winding::winding::{Accuracy, FieldConfig, WindingField};
 use std::time::Instant;
 
@@ -13,36 +15,47 @@ const BUILDS: usize = 5;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [model, queries, values] = &arguments[..] else { panic!("usage: measure MODEL QUERIES VALUES") };
+    let [model, resolution, values] = &arguments[..] else {
+        panic!("usage: measure MODEL RESOLUTION VALUES")
+    };
     let shape =
         if model.ends_with(".f64") { Shape::from(read_cloud(model)) } else { Shape::from(read_soup(model)) };
-    let queries: Vec<Vec3> = read_numbers::<3>(queries).into_iter().map(Vec3::from_array).collect();
+    let resolution: usize = resolution.parse().expect("the resolution is a number");
 
     let mut builds = Vec::new();
     let mut field = None;
     for _ in 0..BUILDS {
-        let start = Instant::now();
-        field = Some(WindingField::new(shape.clone(), FieldConfig::default()));
-        builds.push(start.elapsed().as_secs_f64());
+        let (time, built) = timed(|| WindingField::new(shape.clone(), FieldConfig::default()));
+        builds.push(time);
+        field = Some(built);
     }
     builds.sort_by(f64::total_cmp);
     let field = field.expect("it was built");
 
-    let start = Instant::now();
-    let result = field.evaluate(&queries, Accuracy::of_paper(&shape), &Silent).expect("nothing cancels");
-    let evaluation = start.elapsed().as_secs_f64();
-    let start = Instant::now();
-    let inside = field.contains(&queries, &Silent).expect("nothing cancels");
-    let classification = start.elapsed().as_secs_f64();
-    std::fs::write(values, result.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>())
-        .expect("values are written");
+    let lattice = Lattice::with_resolution(field.bounds(), resolution).expect("the model has a size");
+    let points: Vec<Vec3> = (0..lattice.len()).map(|i| lattice.point(lattice.sample(i))).collect();
+    let accuracy = Accuracy::of_paper(&shape);
+    let (evaluation, grid) =
+        timed(|| field.evaluate_lattice(&lattice, accuracy, &Silent).expect("nothing cancels"));
+    let (scattered, _) = timed(|| field.evaluate(&points, accuracy, &Silent).expect("nothing cancels"));
+    let config = VoxelConfig::default();
+    let (voxels, solid) = timed(|| voxelize(&field, &lattice, &config, &Silent).expect("nothing cancels"));
+    std::fs::write(values, grid.values.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>())
+        .expect("written");
     println!(
-        "{{\"elements\": {}, \"build\": {}, \"evaluation\": {evaluation}, \"classification\": {classification}, \"inside\": {}, \"bytes\": {}}}",
+        "{{\"elements\": {}, \"build\": {}, \"evaluation\": {evaluation}, \"scattered\": {scattered}, \
+         \"voxels\": {voxels}, \"inside\": {}, \"bytes\": {}}}",
         shape.len(),
         builds[BUILDS / 2],
-        inside.iter().filter(|i| **i).count(),
+        solid.count(),
         field.report().bytes,
     );
+}
+
+fn timed<T>(job: impl FnOnce() -> T) -> (f64, T) {
+    let start = Instant::now();
+    let result = job();
+    (start.elapsed().as_secs_f64(), result)
 }
 
 fn read_soup(path: &str) -> TriangleSoup {

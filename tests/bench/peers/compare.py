@@ -116,19 +116,19 @@ def main():
     import numpy as np
 
     def mesh_peer(bvh_of, values_of):
-        def run(queries):
+        def run(queries, _):
             build, bvh = timed(bvh_of)
             evaluation, values = timed(lambda: values_of(bvh, queries))
             return {"build": build, "evaluation": evaluation, "values": values}
         return run
 
-    def ours(path, folder):
-        def run(queries):
-            queries.tofile(folder / "queries.f64")
-            command = [executable, path, folder / "queries.f64", folder / "values.f64"]
+    def ours(path, folder, key="evaluation"):
+        def run(queries, resolution):
+            command = [executable, path, str(resolution), folder / "values.f64"]
             environment = {**os.environ, "RAYON_NUM_THREADS": str(options.threads)}
             output = subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
-            return {**json.loads(output), "values": np.fromfile(folder / "values.f64")}
+            times = json.loads(output)
+            return {"build": times["build"], "evaluation": times[key], "values": np.fromfile(folder / "values.f64")}
         return run
 
     rows = []
@@ -142,6 +142,7 @@ def main():
             contestants = {
                 "mesh": {
                     "fast-winding": ours(path, folder),
+                    "fast-winding, point by point": ours(path, folder, "scattered"),
                     "gpytoolbox": mesh_peer(
                         lambda: gpytoolbox.fast_winding_number_precompute(vertices, faces.astype(np.int32)),
                         lambda bvh, q: bvh.winding_number(q),
@@ -153,7 +154,7 @@ def main():
                 },
                 "points": {
                     "fast-winding": ours(folder / "cloud.f64", folder),
-                    "libigl": lambda q: dict(
+                    "libigl": lambda q, _: dict(
                         zip(("evaluation", "values"), timed(lambda: igl.fast_winding_number(points, normals, areas, q, 2, 2.3)))
                     ),
                 },
@@ -168,7 +169,7 @@ def main():
                 results = {peer: [] for peer in contestants[kind]}
                 for _ in range(options.rounds):
                     for peer, run in contestants[kind].items():
-                        results[peer].append(run(queries))
+                        results[peer].append(run(queries, resolution))
                 rows += summarise(np, model, kind, resolution, len(queries), results, exact, sample)
     print(f"\n{options.threads} thread(s), medians of {options.rounds} rounds; ratios are peer / fast-winding\n")
     print("| model | queries | | build ms | ratio | ns a query | ratio | build + evaluate s | RMS |")
