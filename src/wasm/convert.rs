@@ -83,7 +83,8 @@ pub fn triangles_from(indices: Option<&Uint32Array>, vertices: usize) -> Result<
 /// A new array that lies in JavaScript's memory, or `OutOfMemory`.
 fn new_array(constructor: &str, length: usize, bytes: usize) -> Result<JsValue, Failure> {
     let failed = |_| Failure::out_of_memory(length.saturating_mul(bytes));
-    let class: Function = Reflect::get(&js_sys::global(), &constructor.into()).map_err(failed)?.unchecked_into();
+    let class: Function =
+        Reflect::get(&js_sys::global(), &constructor.into()).map_err(failed)?.unchecked_into();
     Reflect::construct(&class, &js_sys::Array::of1(&(length as f64).into())).map_err(failed)
 }
 

@@ -16,7 +16,11 @@ impl Handle {
     pub fn fault(&self, how: &str, wherever: &str) {
         match wherever {
             "caller" => fail(how),
-            _ => (0..1000).into_par_iter().for_each(|i| if i == 500 { fail(how) }),
+            _ => (0..1000).into_par_iter().for_each(|i| {
+                if i == 500 {
+                    fail(how)
+                }
+            }),
         }
     }
 }

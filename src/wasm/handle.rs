@@ -19,7 +19,10 @@ use wasm_bindgen::prelude::*;
 enum Source {
     Soup(Arc<TriangleSoup>),
     /// The points as they came, and with normals and areas once these were needed.
-    Cloud { given: PointCloud, oriented: Option<Arc<OrientedCloud>> },
+    Cloud {
+        given: PointCloud,
+        oriented: Option<Arc<OrientedCloud>>,
+    },
 }
 
 /// A soup or a cloud.
@@ -114,9 +117,10 @@ impl Handle {
         let warnings: js_sys::Array = self.warnings.iter().map(options::warning_to).collect();
         let (has_normals, has_areas) = match &self.source {
             Source::Soup(_) => (false, false),
-            Source::Cloud { given, oriented } => {
-                (given.normals().is_some() || oriented.is_some(), given.areas().is_some() || oriented.is_some())
-            }
+            Source::Cloud { given, oriented } => (
+                given.normals().is_some() || oriented.is_some(),
+                given.areas().is_some() || oriented.is_some(),
+            ),
         };
         Ok(object([
             ("kind", kind.into()),
@@ -200,7 +204,9 @@ impl Handle {
 
     fn estimate_normals(&mut self, job: &Job) -> Result<(), Failure> {
         let Source::Cloud { given, oriented } = &mut self.source else {
-            return Err(Failure::invalid("a soup has its orientation from its triangles: only clouds are oriented"));
+            return Err(Failure::invalid(
+                "a soup has its orientation from its triangles: only clouds are oriented",
+            ));
         };
         if oriented.is_none() {
             let (cloud, warnings) = estimate::orient(given, &EstimateConfig::default(), job)?;
@@ -223,11 +229,7 @@ impl Handle {
     }
 
     /// The field, built the first time and when another configuration is asked for.
-    pub(super) fn field(
-        &mut self,
-        config: Option<FieldConfig>,
-        job: &Job,
-    ) -> Result<&WindingField, Failure> {
+    pub(super) fn field(&mut self, config: Option<FieldConfig>, job: &Job) -> Result<&WindingField, Failure> {
         let kept = self.field.take().filter(|(built, _)| config.is_none_or(|config| config == *built));
         let config = config.unwrap_or_default();
         let field = match kept {

@@ -31,7 +31,9 @@ pub fn version() -> String {
 #[wasm_bindgen(js_name = exportLayer)]
 pub fn export_layer(layer: JsValue, format: &str) -> Result<js_sys::Uint8Array, JsValue> {
     if format != "svg" {
-        return Err(failure::Failure::invalid(format!("unknown format '{format}': layers can be 'svg'")).into());
+        return Err(
+            failure::Failure::invalid(format!("unknown format '{format}': layers can be 'svg'")).into()
+        );
     }
     let layer = options::layer_from(layer)?;
     let mut bytes = Vec::new();

@@ -37,7 +37,8 @@ pub struct ReadOptions {
 
 impl ReadOptions {
     pub fn for_io(&self) -> Result<io::ReadOptions, Failure> {
-        let unit = self.unit.as_deref().map_or(Ok(io::Unit::default()), str::parse).map_err(Failure::invalid)?;
+        let unit =
+            self.unit.as_deref().map_or(Ok(io::Unit::default()), str::parse).map_err(Failure::invalid)?;
         Ok(io::ReadOptions { unit })
     }
 }
@@ -242,7 +243,9 @@ pub fn mesh_format(name: &str) -> Result<MeshFormat, Failure> {
         "obj" => Ok(MeshFormat::Obj),
         "ply" => Ok(MeshFormat::Ply),
         "off" => Ok(MeshFormat::Off),
-        _ => Err(Failure::invalid(format!("unknown format '{name}': soups can be 'stl', 'obj', 'ply' or 'off'"))),
+        _ => Err(Failure::invalid(format!(
+            "unknown format '{name}': soups can be 'stl', 'obj', 'ply' or 'off'"
+        ))),
     }
 }
 

@@ -112,7 +112,8 @@ impl Handle {
     pub fn heat_map(&mut self, options: JsValue, job: &Job) -> Result<Object, JsValue> {
         let options: HeatMapOptions = options::from_js(options)?;
         let z = options.z()?;
-        let map = slice::heat_map(self.field(None, job)?, z, options.resolution(), job).map_err(Failure::from)?;
+        let map =
+            slice::heat_map(self.field(None, job)?, z, options.resolution(), job).map_err(Failure::from)?;
         Ok(results::heat_map_to(&map)?)
     }
 
