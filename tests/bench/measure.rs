@@ -1,10 +1,11 @@
 //! One measured job in a process of its own, for `tests/bench/peers/compare.py`.
 //!
-//! `measure MODEL QUERIES VALUES [cloud]` reads a model, and queries as raw little-endian f64 triples; builds the field
-//! and evaluates it with the paper's parameters; writes the values as raw f64 and prints its times as JSON.
+//! `measure MODEL QUERIES VALUES` reads a model (a `.f64` file is a cloud: raw little-endian point, normal and area of each
+//! point), and queries as raw triples; builds the field and evaluates it with the paper's parameters; writes the values as
+//! raw f64 and prints its times as JSON.
 use fast_winding::data::{OrientedCloud, Shape, Silent, TriangleSoup};
 use fast_winding::io::{self, Geometry};
-use fast_winding::math::{Vec3, area_vector, barycentre};
+use fast_winding::math::Vec3;
 use fast_winding::winding::{Accuracy, FieldConfig, WindingField};
 use std::time::Instant;
 
@@ -12,16 +13,10 @@ const BUILDS: usize = 5;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [model, queries, values, rest @ ..] = &arguments[..] else {
-        panic!("usage: measure MODEL QUERIES VALUES [cloud]");
-    };
-    let bytes = std::fs::read(model).expect("the model can be read");
-    let Geometry::Soup(soup) = io::read(&bytes).expect("the model is understood").geometry else {
-        panic!("{model} has no triangles");
-    };
+    let [model, queries, values] = &arguments[..] else { panic!("usage: measure MODEL QUERIES VALUES") };
     let shape =
-        if rest.iter().any(|a| a == "cloud") { Shape::from(barycentres(&soup)) } else { Shape::from(soup) };
-    let queries = read_points(queries);
+        if model.ends_with(".f64") { Shape::from(read_cloud(model)) } else { Shape::from(read_soup(model)) };
+    let queries: Vec<Vec3> = read_numbers::<3>(queries).into_iter().map(Vec3::from_array).collect();
 
     let mut builds = Vec::new();
     let mut field = None;
@@ -50,16 +45,24 @@ fn main() {
     );
 }
 
-/// The cloud that compare.py makes too: barycentres with the triangles' normals and areas.
-fn barycentres(soup: &TriangleSoup) -> OrientedCloud {
-    let corners = (0..soup.len()).map(|t| soup.corners(t)).filter(|t| area_vector(*t).length() > 0.0);
-    let (points, vectors): (Vec<Vec3>, Vec<Vec3>) = corners.map(|t| (barycentre(t), area_vector(t))).unzip();
-    let areas = vectors.iter().map(|v| v.length()).collect();
-    OrientedCloud::new(points, vectors, areas).expect("triangles with an area have a normal")
+fn read_soup(path: &str) -> TriangleSoup {
+    let bytes = std::fs::read(path).expect("the model can be read");
+    match io::read(&bytes).expect("the model is understood").geometry {
+        Geometry::Soup(soup) => soup,
+        Geometry::Cloud(_) => panic!("{path} has no triangles"),
+    }
 }
 
-fn read_points(path: &str) -> Vec<Vec3> {
-    let bytes = std::fs::read(path).expect("the queries can be read");
+fn read_cloud(path: &str) -> OrientedCloud {
+    let records = read_numbers::<7>(path);
+    let vector = |at: usize| records.iter().map(|r| Vec3::new(r[at], r[at + 1], r[at + 2])).collect();
+    OrientedCloud::new(vector(0), vector(3), records.iter().map(|r| r[6]).collect())
+        .expect("the cloud is complete")
+}
+
+fn read_numbers<const N: usize>(path: &str) -> Vec<[f64; N]> {
+    let bytes = std::fs::read(path).expect("the file can be read");
     let number = |chunk: &[u8]| f64::from_le_bytes(chunk.try_into().expect("eight bytes"));
-    bytes.chunks_exact(24).map(|p| Vec3::new(number(&p[..8]), number(&p[8..16]), number(&p[16..]))).collect()
+    let record = |chunk: &[u8]| std::array::from_fn(|k| number(&chunk[8 * k..8 * k + 8]));
+    bytes.chunks_exact(8 * N).map(record).collect()
 }

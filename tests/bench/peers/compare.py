@@ -74,9 +74,10 @@ def barycentres(np, vertices, faces):
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     vectors = np.cross(b - a, c - a) / 2
     areas = np.linalg.norm(vectors, axis=1)
-    kept = areas > 0
-    points = ((a + b + c) / 3)[kept]
-    return points, vectors[kept] / areas[kept, None], areas[kept]
+    # Two equal points send libigl's octree into endless splitting.
+    _, first = np.unique((a + b + c) / 3, axis=0, return_index=True)
+    kept = first[areas[first] > 0]
+    return ((a + b + c) / 3)[kept], vectors[kept] / areas[kept, None], areas[kept]
 
 
 def exact_of_mesh(np, triangles, query):
@@ -121,10 +122,10 @@ def main():
             return {"build": build, "evaluation": evaluation, "values": values}
         return run
 
-    def ours(path, folder, *extra):
+    def ours(path, folder):
         def run(queries):
             queries.tofile(folder / "queries.f64")
-            command = [executable, path, folder / "queries.f64", folder / "values.f64", *extra]
+            command = [executable, path, folder / "queries.f64", folder / "values.f64"]
             environment = {**os.environ, "RAYON_NUM_THREADS": str(options.threads)}
             output = subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
             return {**json.loads(output), "values": np.fromfile(folder / "values.f64")}
@@ -137,6 +138,7 @@ def main():
             vertices, faces = igl.read_triangle_mesh(str(path))
             faces = faces.astype(np.int64)
             points, normals, areas = barycentres(np, vertices, faces)
+            np.hstack([points, normals, areas[:, None]]).tofile(folder / "cloud.f64")
             contestants = {
                 "mesh": {
                     "fast-winding": ours(path, folder),
@@ -150,7 +152,7 @@ def main():
                     ),
                 },
                 "points": {
-                    "fast-winding": ours(path, folder, "cloud"),
+                    "fast-winding": ours(folder / "cloud.f64", folder),
                     "libigl": lambda q: dict(
                         zip(("evaluation", "values"), timed(lambda: igl.fast_winding_number(points, normals, areas, q, 2, 2.3)))
                     ),

@@ -1,0 +1,19 @@
+/** Takes the picture of the README from the built page: `npm --prefix www run picture`. */
+import { fileURLToPath } from 'node:url';
+import { launch } from './browser.mjs';
+import { openPage, slide } from './page.mjs';
+import { serve } from './serve.mjs';
+
+const LAYER = 96;
+
+const [browser, server] = await Promise.all([launch(), serve()]);
+const page = await openPage(browser, server.url, { width: 1600, height: 900 });
+await slide(page, '#layer-slider', LAYER);
+await page.check('#heat');
+await page.waitForFunction(() => document.querySelector('#plan-svg image'));
+// The fine heat map follows the rough one.
+await page.waitForTimeout(3000);
+await page.locator('#heat').blur();
+await page.screenshot({ path: fileURLToPath(new URL('../../www/readme.png', import.meta.url)) });
+await browser.close();
+await server.close();
