@@ -26,8 +26,8 @@ const VARIANTS = {
   faults: { flags: THREADS, target: 'threads', features: ['faults'] },
 };
 
-/** Runs cargo for wasm32 with the flags of `variant`; `args` begin with the command. */
-export async function wasmCargo(variant, args, environment = {}) {
+/** Runs cargo for wasm32 with the flags of `variant`; `args` begin with the command. Resolves to what it printed. */
+export async function wasmCargo(variant, args, { quiet = false, ...environment } = {}) {
   const { flags, target } = VARIANTS[variant];
   const env = {
     ...wasmEnvironment(await wasmToolchain()),
@@ -35,7 +35,7 @@ export async function wasmCargo(variant, args, environment = {}) {
     CARGO_TARGET_DIR: wasmTarget(target),
     ...environment,
   };
-  return run('cargo', [...args, '--target', 'wasm32-unknown-unknown', '--release'], { cwd: root, env });
+  return run('cargo', [...args, '--target', 'wasm32-unknown-unknown', '--release'], { cwd: root, env, quiet });
 }
 
 /** Folder of the finished build of a variant: fast_winding.js, fast_winding_bg.wasm, perhaps snippets/. */
