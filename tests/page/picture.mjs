@@ -4,7 +4,8 @@ import { launch } from './browser.mjs';
 import { openPage, slide } from './page.mjs';
 import { serve } from './serve.mjs';
 
-const LAYER = 96;
+/** Low enough to meet the holes under the scan, where w is a fraction. */
+const LAYER = 10;
 
 const [browser, server] = await Promise.all([launch(), serve()]);
 const page = await openPage(browser, server.url, { width: 1600, height: 900 });
