@@ -52,8 +52,9 @@ export class View {
   #followCamera(): void {
     const { camera } = this.#stage;
     const { model } = this.#store.state;
+    if (!model) return;
     drawAxes(byId<SVGElement>('axes'), camera);
-    if (model) this.#parts.floor.group.visible = camera.position.z > model.bounds.min[2] - model.geometry.origin[2];
+    this.#parts.floor.group.visible = camera.position.z > model.bounds.min[2] - model.geometry.origin[2];
   }
 
   #followStore(): void {
