@@ -28,8 +28,11 @@ fn check_length(what: &'static str, found: usize, points: usize) -> Result<(), C
     if found == points { Ok(()) } else { Err(CloudError::LengthMismatch { what, found, points }) }
 }
 
-fn keep<T: Copy>(values: &[T], kept: &[bool]) -> Vec<T> {
-    values.iter().zip(kept).filter(|(_, kept)| **kept).map(|(value, _)| *value).collect()
+/// In place: a raw scan can fill half the memory there is.
+fn keep<T>(mut values: Vec<T>, kept: &[bool]) -> Vec<T> {
+    let mut kept = kept.iter();
+    values.retain(|_| *kept.next().expect("there is a flag for each value"));
+    values
 }
 
 impl PointCloud {
@@ -60,9 +63,9 @@ impl PointCloud {
         let counts = [(WarningKind::NonFinitePoints, lost_points), (WarningKind::BadNormals, lost_normals)];
         let warnings = counts.into_iter().filter(|c| c.1 > 0).map(|(k, n)| Warning::new(k, n)).collect();
         let cloud = PointCloud {
-            points: keep(&points, &kept),
-            normals: normals.map(|n| keep(&n, &kept).into_iter().map(Vec3::normalize).collect()),
-            areas: areas.map(|a| keep(&a, &kept)),
+            points: keep(points, &kept),
+            normals: normals.map(|n| keep(n, &kept).into_iter().map(Vec3::normalize).collect()),
+            areas: areas.map(|a| keep(a, &kept)),
         };
         Ok((cloud, warnings))
     }

@@ -1,4 +1,5 @@
 //! What goes in and what comes out: soups, clouds, lattices, layers, warnings. Plain data, validated once.
+mod blocks;
 mod cloud;
 mod lattice;
 mod layers;
@@ -7,6 +8,7 @@ mod monitor;
 mod soup;
 mod warning;
 
+pub use blocks::{OutOfMemory, fill_in_blocks, zeroed};
 pub use cloud::{CloudError, OrientedCloud, PointCloud};
 pub use lattice::{Grid, Lattice, LatticeError};
 pub use layers::{Layer, Polygon, Ring, signed_area};

@@ -27,6 +27,8 @@ pub enum WarningKind {
     TruncatedRecord,
     /// Bytes after the last record were ignored.
     TrailingBytes,
+    /// Columns of a point file that are neither coordinates nor normals, such as colours, were left out.
+    IgnoredColumns,
     /// Faces with fewer than three corners, or lines and other elements, were skipped.
     SkippedElements,
     /// The model's diagonal is below 1 mm: are its units metres or inches?
@@ -61,6 +63,9 @@ impl fmt::Display for Warning {
             }
             WarningKind::TruncatedRecord => write!(f, "{n} records at the end were cut short and dropped"),
             WarningKind::TrailingBytes => write!(f, "{n} bytes after the last record were ignored"),
+            WarningKind::IgnoredColumns => {
+                write!(f, "columns of {n} points that are neither coordinates nor normals were left out")
+            }
             WarningKind::SkippedElements => {
                 write!(f, "{n} elements that are neither faces nor points were skipped")
             }

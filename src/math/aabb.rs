@@ -46,6 +46,14 @@ impl Aabb {
         Aabb { min: self.min - Vec3::splat(margin), max: self.max + Vec3::splat(margin) }
     }
 
+    /// What to subtract from coordinates in the box before they are narrowed to `f32`: zero unless the box lies so far
+    /// from the origin, for its size, that more than 4 of an `f32`'s 24 bits would be lost.
+    pub fn narrowing_origin(&self) -> Vec3 {
+        const FAR: f64 = 16.0;
+        let center = self.center();
+        if center.length() > FAR * self.diagonal() { center } else { Vec3::ZERO }
+    }
+
     pub fn contains(&self, p: Vec3) -> bool {
         self.min.cmple(p).all() && p.cmple(self.max).all()
     }
@@ -61,5 +69,13 @@ mod tests {
         assert_eq!(Aabb::EMPTY.including(p), Aabb { min: p, max: p });
         assert!(Aabb::EMPTY.is_empty());
         assert_eq!(Aabb::EMPTY.size(), Vec3::ZERO);
+    }
+
+    #[test]
+    fn only_a_far_box_is_narrowed_about_its_center() {
+        let near = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
+        assert_eq!(near.narrowing_origin(), Vec3::ZERO);
+        let far = Aabb { min: Vec3::splat(1e6), max: Vec3::splat(1e6 + 1.0) };
+        assert_eq!(far.narrowing_origin(), far.center());
     }
 }

@@ -1,0 +1,277 @@
+/** Options of `init`. The same options give the same engine; other options another one. */
+export interface InitOptions {
+  /** How many threads: `'auto'` (the default) one for each processor, `false` the single-threaded build. */
+  threads?: 'auto' | number | false;
+  /**
+   * Where the WebAssembly lies, when it is not beside the script: the URL of a folder that holds
+   * `threads/fast_winding_bg.wasm` and `single/fast_winding_bg.wasm`, or of the one file to use (ending in `.wasm`).
+   */
+  wasmUrl?: string | URL;
+  /** Where `worker.js` lies, when a bundler does not find it by itself. */
+  workerUrl?: string | URL;
+  /** Gives up waiting. */
+  signal?: AbortSignal;
+}
+
+/** What runs, and why. */
+export interface Info {
+  /** Threads that compute: 0 when the single-threaded build runs. */
+  readonly threads: number;
+  readonly simd: boolean;
+  /** Why this build runs, in words. */
+  readonly reason: string;
+  readonly version: string;
+  /** Bytes of sources kept in JavaScript, from which a single-threaded engine is rebuilt after an abort. */
+  readonly memory: number;
+}
+
+/** Options of every call that may take long. */
+export interface CallOptions {
+  /** Stops the call, which then rejects with `Aborted`. Not heard by `./sync`. */
+  signal?: AbortSignal;
+  /** Hears of progress: a fraction in [0, 1] that never falls within one stage, and the stage's name. */
+  onProgress?: (fraction: number, stage: string) => void;
+}
+
+export interface ReadOptions {
+  /** Unit of files that do not state theirs (STL, OBJ, PLY, XYZ, OFF). Everything becomes millimetres. */
+  unit?: 'micron' | 'millimeter' | 'centimeter' | 'inch' | 'foot' | 'meter';
+  /** Clouds without normals: estimate and orient them at once. */
+  orient?: 'auto';
+  /** Take over the input's buffer, which becomes unusable for the caller, rather than copy it. */
+  transfer?: boolean;
+}
+
+/** Something in the input that was put right or left out: never a reason to refuse it. */
+export interface Warning {
+  /** Stable, for programs: for example `non-finite-faces`. */
+  code: string;
+  /** How many faces, points, records or bytes it concerns. */
+  count: number;
+  /** For people. */
+  message: string;
+}
+
+/** An axis-aligned box, in millimetres. */
+export interface Bounds {
+  min: [number, number, number];
+  max: [number, number, number];
+}
+
+/** A triangle mesh. */
+export interface Mesh {
+  /** xyzxyz… in millimetres, relative to `origin`. */
+  positions: Float32Array;
+  /** One unit vector for each position, outward. */
+  normals: Float32Array;
+  /** Three for each triangle, counter-clockwise seen from outside. */
+  indices: Uint32Array;
+  /** Three numbers to add to positions: zero unless the model lies far from the origin. */
+  origin: Float64Array;
+}
+
+/** Rings are xyxy… in millimetres and do not repeat their first point. */
+export interface Polygon {
+  /** Counter-clockwise seen from +z. */
+  outer: Float64Array;
+  /** Clockwise seen from +z. */
+  holes: Float64Array[];
+}
+
+/** One slice: the polygons of {w ≥ 1/2} at `zSample`. Heights in millimetres. */
+export interface Layer {
+  zBottom: number;
+  /** Where a printer's nozzle lays this layer. */
+  zTop: number;
+  /** Where the field was asked. */
+  zSample: number;
+  polygons: Polygon[];
+}
+
+/** The lattice fills the shape's bounds, samples at cell centres. One of resolution, spacing, counts. */
+export interface VoxelOptions extends CallOptions {
+  /** Cells along the longest side; 64 unless said otherwise. */
+  resolution?: number;
+  /** Edge of a cubic cell in millimetres. */
+  spacing?: number;
+  /** Cells along x, y and z. */
+  counts?: [number, number, number];
+  /** A voxel is inside when w at its centre is at least this: 0.5 unless said otherwise. */
+  threshold?: number;
+  /** `lattice` asks every cell; `continuation` follows the surface from the cells that hold points. */
+  method?: 'lattice' | 'continuation';
+  /** `bytes`: 0 or 1 for each voxel. `bits`: 8 voxels a byte, lowest bit first. */
+  format?: 'bytes' | 'bits';
+  /** Also return the exposed faces as a mesh. */
+  surface?: boolean;
+}
+
+export interface Voxels {
+  counts: [number, number, number];
+  /** Centre of the first voxel. */
+  origin: [number, number, number];
+  spacing: [number, number, number];
+  /** x fastest. */
+  inside: Uint8Array;
+  /** Number of voxels inside. */
+  count: number;
+  /** Cubic millimetres inside. */
+  volume: number;
+  surface?: Mesh;
+}
+
+/** Layers of equal height from the bottom of the shape, or those at `heights`. */
+export interface SliceOptions extends CallOptions {
+  /** Millimetres: 0.2 unless said otherwise. */
+  layerHeight?: number;
+  /** Millimetres: as the others unless said otherwise. */
+  firstLayerHeight?: number;
+  /** Where in its span a layer is sampled: `middle` unless said otherwise. */
+  sampleAt?: 'bottom' | 'middle' | 'top';
+  /** Heights z to sample instead, in millimetres. */
+  heights?: number[] | Float64Array;
+  /** Edge of a cell in the plane, in millimetres: features smaller than it may be missed. */
+  tolerance?: number;
+  /** Cells along the longest side when `tolerance` is not given: 256 unless said otherwise. */
+  resolution?: number;
+}
+
+export interface SurfaceOptions extends CallOptions {
+  /** Cells along the longest side: 64 unless said otherwise. */
+  resolution?: number;
+  /** Edge of a cubic cell in millimetres. */
+  spacing?: number;
+  /** The surface is where w equals this: 0.5 unless said otherwise. */
+  level?: number;
+}
+
+/** w over a plane z = constant, a little beyond the bounds. */
+export interface HeatMap {
+  /** Samples along x and y. */
+  counts: [number, number];
+  /** The first sample. */
+  origin: [number, number];
+  spacing: [number, number];
+  z: number;
+  /** x fastest. */
+  values: Float64Array;
+}
+
+/** How exact winding numbers are: a tolerance, or the order and opening distance of the expansion. */
+export interface Accuracy {
+  /** Largest error of w: 1e-3 unless said otherwise; 0 means exact to rounding. */
+  tolerance?: number;
+  /** Order of the expansion. */
+  order?: 0 | 1 | 2;
+  /** A node is expanded beyond `beta` times its radius: 2 for soups, 2.3 for clouds unless said otherwise. */
+  beta?: number;
+}
+
+/** What a built tree is. */
+export interface Prepared {
+  milliseconds: number;
+  bytes: number;
+  /** How winding numbers are computed, in words. */
+  method: string;
+  /** Pieces of the surface that are connected. */
+  components: number;
+  /** Edges where the surface is open. */
+  boundaryEdges: number;
+  /** Triangles that close the openings. */
+  caps: number;
+}
+
+export type SoupFormat = 'stl' | 'obj' | 'ply' | 'off';
+export type CloudFormat = 'ply' | 'xyz';
+
+/** What a soup and a cloud have in common: a winding field, and questions to it. */
+export interface Shape {
+  readonly kind: 'soup' | 'cloud';
+  /** The file's format, or `arrays`. */
+  readonly format: string;
+  readonly warnings: Warning[];
+  readonly bounds: Bounds;
+  /** Number of triangles or points. */
+  readonly count: number;
+  /** Gives its memory back at once; later calls fail with `Freed`. */
+  free(): void;
+  [Symbol.dispose](): void;
+  /** Builds the tree ahead of time. */
+  prepare(options?: Accuracy & { leafSize?: number } & CallOptions): Promise<Prepared>;
+  /** Winding numbers at `points` (xyzxyz…), one for each. */
+  windingNumbers(points: Float32Array | Float64Array, options?: Accuracy & CallOptions): Promise<Float64Array>;
+  /** 1 for each of `points` (xyzxyz…) that is inside, else 0. */
+  contains(points: Float32Array | Float64Array, options?: CallOptions): Promise<Uint8Array>;
+  voxelize(options?: VoxelOptions): Promise<Voxels>;
+  slice(options?: SliceOptions): Promise<Layer[]>;
+  /** The closed surface where w = 1/2. */
+  surface(options?: SurfaceOptions): Promise<Mesh>;
+  heatMap(options: { z: number; resolution?: number } & CallOptions): Promise<HeatMap>;
+  /** The shape as a file: `stl` (binary), `obj`, `ply` or `off` for soups, `ply` or `xyz` for clouds. */
+  export(format: SoupFormat | CloudFormat): Promise<Uint8Array>;
+}
+
+/** Triangles without any promise about how they fit together. */
+export interface Soup extends Shape {
+  readonly kind: 'soup';
+  /** The triangles as they are. */
+  geometry(): Promise<{ positions: Float32Array; indices: Uint32Array; origin: Float64Array }>;
+  /** Where the surface is open: two ends (xyzxyz) for each of `count` edges. */
+  boundaryEdges(): Promise<{ positions: Float32Array; origin: Float64Array; count: number }>;
+}
+
+/** Points, perhaps with normals and areas. */
+export interface Cloud extends Shape {
+  readonly kind: 'cloud';
+  readonly hasNormals: boolean;
+  readonly hasAreas: boolean;
+  /** Estimates normals and orients them consistently. */
+  orient(options?: { method?: 'propagation' } & CallOptions): Promise<void>;
+  /** The points as they are; areas in square millimetres. */
+  geometry(): Promise<{
+    positions: Float32Array;
+    normals?: Float32Array;
+    areas?: Float64Array;
+    origin: Float64Array;
+  }>;
+}
+
+export type Bytes = Uint8Array | ArrayBuffer;
+
+export interface SoupArrays {
+  /** xyzxyz… in millimetres. */
+  positions: Float32Array | Float64Array;
+  /** Three for each triangle, counter-clockwise seen from outside; without them each three positions are one. */
+  indices?: Uint32Array;
+}
+
+export interface CloudArrays {
+  /** xyzxyz… in millimetres. */
+  points: Float32Array | Float64Array;
+  /** xyzxyz…, outward; any length but zero. */
+  normals?: Float32Array | Float64Array;
+  /** Square millimetres, one for each point; estimated where missing. */
+  areas?: Float32Array | Float64Array;
+}
+
+/** An engine: it opens files and arrays. */
+export interface FastWinding {
+  readonly info: Info;
+  /** Reads a file of any known format: STL, OBJ, PLY, XYZ, OFF, 3MF. */
+  open(bytes: Bytes, options?: ReadOptions & CallOptions): Promise<Soup | Cloud>;
+  readonly Soup: {
+    /** Reads a file that must hold triangles. */
+    parse(bytes: Bytes, options?: ReadOptions & CallOptions): Promise<Soup>;
+    from(data: SoupArrays, options?: { transfer?: boolean }): Promise<Soup>;
+  };
+  readonly Cloud: {
+    /** Reads a file that must hold points. */
+    parse(bytes: Bytes, options?: ReadOptions & CallOptions): Promise<Cloud>;
+    from(data: CloudArrays, options?: { orient?: 'auto'; transfer?: boolean }): Promise<Cloud>;
+  };
+  /** One layer as a file. */
+  exportLayer(layer: Layer, format: 'svg'): Promise<Uint8Array>;
+  /** Ends the engine: its worker, its threads, its shapes. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+}

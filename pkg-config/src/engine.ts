@@ -1,0 +1,47 @@
+import type { Handle, Job } from './single/fast_winding.js';
+import type { Request } from './protocol.js';
+
+/** The module that wasm-bindgen makes: the same for both builds as far as it is used here. */
+export type Glue = typeof import('./single/fast_winding.js');
+export type Progress = ((fraction: number, stage: string) => void) | undefined;
+
+/** Methods of the engine that make a shape. */
+const MAKERS = { parse: 'parse', soup: 'soup', cloud: 'cloud' } as const;
+
+/** The shapes of one instance of the WebAssembly, and the calls to them. */
+export class Engine {
+  readonly job: Job;
+  private readonly handles = new Map<number, Handle>();
+
+  constructor(private readonly glue: Glue) {
+    this.job = new glue.Job();
+  }
+
+  get version(): string {
+    return this.glue.version();
+  }
+
+  /** Runs one call. Throws what the WebAssembly throws. */
+  run({ method, handle, args }: Request, progress: Progress): unknown {
+    this.job.listen(progress);
+    if (method in MAKERS) return this.make(MAKERS[method as keyof typeof MAKERS], handle, args);
+    if (method === 'exportLayer') return this.glue.exportLayer(...(args as [unknown, string]));
+    if (method === 'free') return this.free(handle);
+    const shape = this.handles.get(handle);
+    if (!shape) throw { code: 'Freed', message: 'this shape was freed', details: {} };
+    const call = shape[method as keyof Handle] as (...args: unknown[]) => unknown;
+    return call.apply(shape, [...args, this.job]);
+  }
+
+  private make(maker: keyof typeof MAKERS, id: number, args: unknown[]): unknown {
+    const make = this.glue.Handle[maker] as (...args: unknown[]) => Handle;
+    const handle = make.apply(this.glue.Handle, [...args, this.job]);
+    this.handles.set(id, handle);
+    return handle.describe();
+  }
+
+  private free(id: number): void {
+    this.handles.get(id)?.free();
+    this.handles.delete(id);
+  }
+}

@@ -1,0 +1,2 @@
+export type * from './api.js';
+export { WindingError, type ErrorCode } from './error.js';

@@ -1,0 +1,39 @@
+import { initFor } from './init.js';
+import type { Platform, Port, PortListener } from './protocol.js';
+
+export * from './exports.js';
+
+function newWorker(url: string | URL | undefined): Worker {
+  try {
+    // Written out, so that bundlers find the worker.
+    return url ? new Worker(url, { type: 'module' }) : new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+  } catch {
+    // From another origin, such as a CDN, only a script of this one may start a worker: one that imports the other.
+    const other = new URL(url ?? ['.', 'worker.js'].join('/'), url ? location.href : import.meta.url);
+    const script = new Blob([`import ${JSON.stringify(other.href)};`], { type: 'text/javascript' });
+    return new Worker(URL.createObjectURL(script), { type: 'module' });
+  }
+}
+
+const browser: Platform = {
+  startWorker(url: string | URL | undefined, listener: PortListener): Port {
+    const worker = newWorker(url);
+    worker.addEventListener('message', ({ data }) => listener.message(data));
+    worker.addEventListener('error', ({ message }) => listener.failure(message || 'the worker could not be loaded'));
+    return {
+      post: (message, transfer) => worker.postMessage(message, transfer),
+      terminate: () => worker.terminate(),
+      keepAlive: () => {},
+    };
+  },
+  processors: () => navigator.hardwareConcurrency || 1,
+  absoluteUrl: (url) => new URL(url, location.href).href,
+  obstacleToThreads: () =>
+    globalThis.crossOriginIsolated === true
+      ? undefined
+      : 'the page is not cross-origin isolated (it needs the headers Cross-Origin-Opener-Policy: same-origin and ' +
+        'Cross-Origin-Embedder-Policy: require-corp)',
+};
+
+/** Starts the engine in a worker, with threads where possible. */
+export const init = initFor(browser);

@@ -1,0 +1,105 @@
+// The worker's side: starts the engine and answers calls, one at a time. The same in a browser and in Node.
+import { describeError } from './error.js';
+import { Engine, type Glue } from './engine.js';
+import { initialPages } from './threads/memory.js';
+import { nameCrashChannel } from './pool.js';
+import type { FromWorker, Ready, StartMessage, ToWorker } from './protocol.js';
+
+/** Sizes the shared memory may grow to, in pages of 64 KiB: 4, 2, 1 GiB, 512 MiB. Some devices refuse the larger. */
+const MEMORY_MAXIMA = [65536, 32768, 16384, 8192];
+/** Milliseconds between two reports of progress. */
+const PROGRESS_INTERVAL = 30;
+
+export interface Host {
+  post(message: FromWorker, transfer: Transferable[]): void;
+  /** The WebAssembly of a build, from `wasmUrl` or from beside this module. */
+  load(build: 'threads' | 'single', wasmUrl: string | undefined): Promise<WebAssembly.Module>;
+}
+
+function sharedMemory(): WebAssembly.Memory {
+  let refusal: unknown;
+  for (const maximum of MEMORY_MAXIMA) {
+    try {
+      return new WebAssembly.Memory({ initial: initialPages, maximum, shared: true });
+    } catch (error) {
+      refusal = error;
+    }
+  }
+  throw refusal;
+}
+
+async function startThreads(host: Host, { threads, wasmUrl, channel, reason }: StartMessage): Promise<[Engine, Ready]> {
+  const memory = sharedMemory();
+  const module = await host.load('threads', wasmUrl);
+  const glue = await import('./threads/fast_winding.js');
+  await glue.default({ module_or_path: module, memory });
+  nameCrashChannel(channel);
+  await glue.initThreadPool(threads);
+  const engine = new Engine(glue as unknown as Glue);
+  const cancel = { buffer: memory.buffer as unknown as SharedArrayBuffer, address: engine.job.address() };
+  return [engine, { type: 'ready', threads, reason, version: engine.version, cancel }];
+}
+
+async function startSingle(host: Host, { wasmUrl }: StartMessage, reason: string): Promise<[Engine, Ready]> {
+  const module = await host.load('single', wasmUrl);
+  const glue = await import('./single/fast_winding.js');
+  await glue.default({ module_or_path: module });
+  const engine = new Engine(glue);
+  return [engine, { type: 'ready', threads: 0, reason, version: engine.version, cancel: undefined }];
+}
+
+async function start(host: Host, message: StartMessage): Promise<[Engine, Ready]> {
+  let reason = message.reason;
+  if (message.threads > 0) {
+    try {
+      return await startThreads(host, message);
+    } catch (error) {
+      reason = `single-threaded: threads could not start (${error instanceof Error ? error.message : String(error)})`;
+    }
+  }
+  return startSingle(host, message, reason);
+}
+
+/** The buffers in a result: all of them are copies made for the caller, so they can be handed over. */
+function buffersOf(value: unknown, found: Set<Transferable> = new Set()): Set<Transferable> {
+  if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
+  else if (typeof value === 'object' && value !== null) for (const part of Object.values(value)) buffersOf(part, found);
+  return found;
+}
+
+function throttled(host: Host, id: number): (fraction: number, stage: string) => void {
+  let last = -Infinity;
+  return (fraction, stage) => {
+    const now = performance.now();
+    if (now - last < PROGRESS_INTERVAL && fraction < 1) return;
+    last = now;
+    host.post({ type: 'progress', id, fraction, stage }, []);
+  };
+}
+
+/** Answers the messages of one client; returns the function to call with each. */
+export function serve(host: Host): (message: ToWorker) => void {
+  let engine: Engine;
+  const fail = (id: number | undefined, thrown: unknown) => host.post({ type: 'error', id, ...describeError(thrown) }, []);
+  const begin = async (message: StartMessage) => {
+    try {
+      const [started, ready] = await start(host, message);
+      engine = started;
+      host.post(ready, []);
+    } catch (error) {
+      if (error instanceof WebAssembly.CompileError) {
+        const message = `this browser cannot run the engine: ${error.message}`;
+        fail(undefined, { code: 'Unsupported', message, details: {} });
+      } else fail(undefined, error);
+    }
+  };
+  return (message) => {
+    if (message.type === 'start') return void begin(message);
+    try {
+      const value = engine.run(message, throttled(host, message.id));
+      host.post({ type: 'result', id: message.id, value }, [...buffersOf(value)]);
+    } catch (error) {
+      fail(message.id, error);
+    }
+  };
+}

@@ -1,0 +1,176 @@
+// Soups and clouds as the caller holds them. The same classes serve both entries: a caller that posts to a worker
+// answers with promises, one that runs the engine itself with values.
+import type { Accuracy, CallOptions, CloudArrays, Info, Layer, ReadOptions, SoupArrays } from './api.js';
+import { WindingError } from './error.js';
+import type { Description, Request } from './protocol.js';
+
+/** How calls are made: `R<T>` is a promise of T, or T. */
+export interface Caller {
+  readonly info: Info;
+  call(request: Request, options: CallOptions | undefined): unknown;
+  /** Applies `f` to an answer of `call`. */
+  then(answer: unknown, f: (value: unknown) => unknown): unknown;
+  /** Fails the way calls fail. */
+  fail(error: WindingError): unknown;
+  newHandle(): number;
+  dispose(): void;
+}
+
+/** Options without those that the client itself heeds. */
+function forEngine(options: object | undefined): unknown {
+  const { signal, onProgress, transfer, ...rest } = (options ?? {}) as Record<string, unknown>;
+  return rest;
+}
+
+type View = Uint8Array | Uint32Array | Float32Array | Float64Array;
+
+/** The caller's numbers for the engine: a copy, or the caller's own buffer, which then becomes unusable for him. */
+function handOver<T extends View | ArrayBuffer | undefined>(data: T, transfer: boolean | undefined): T {
+  if (data instanceof ArrayBuffer) return (transfer ? structuredClone(data, { transfer: [data] }) : data.slice(0)) as T;
+  if (!ArrayBuffer.isView(data)) return data;
+  if (transfer && data.buffer instanceof ArrayBuffer) return structuredClone(data, { transfer: [data.buffer] });
+  return new (data.constructor as new (view: View) => View)(data) as T;
+}
+
+function asBytes(data: Uint8Array | ArrayBuffer, transfer: boolean | undefined): unknown {
+  // Not a subclass such as Node's Buffer, which often lies in a pool shared with others.
+  if (ArrayBuffer.isView(data) && data.constructor !== Uint8Array) {
+    return new Uint8Array(data.buffer, data.byteOffset, data.byteLength).slice();
+  }
+  const own = handOver(data, transfer);
+  return own instanceof ArrayBuffer ? new Uint8Array(own) : own;
+}
+
+const forgotten = new FinalizationRegistry<() => void>((free) => free());
+
+class BaseShape {
+  readonly kind: 'soup' | 'cloud';
+  readonly format: string;
+  readonly warnings: Description['warnings'];
+  readonly bounds: Description['bounds'];
+  readonly count: number;
+  private isFreed = false;
+
+  constructor(
+    protected readonly caller: Caller,
+    protected readonly handle: number,
+    description: Description,
+  ) {
+    this.kind = description.kind;
+    this.format = description.format;
+    this.warnings = description.warnings;
+    this.bounds = description.bounds;
+    this.count = description.count;
+    forgotten.register(this, () => void caller.call({ method: 'free', handle, args: [] }, undefined), this);
+  }
+
+  protected ask(method: string, args: unknown[], options?: object): unknown {
+    if (this.isFreed) return this.caller.fail(new WindingError('Freed', `this ${this.kind} was freed`));
+    return this.caller.call({ method, handle: this.handle, args }, options as CallOptions | undefined);
+  }
+
+  free(): void {
+    if (this.isFreed) return;
+    void this.ask('free', []);
+    this.isFreed = true;
+    forgotten.unregister(this);
+  }
+
+  [Symbol.dispose](): void {
+    this.free();
+  }
+
+  prepare(options?: object): unknown {
+    return this.ask('prepare', [forEngine(options)], options);
+  }
+
+  windingNumbers(points: View, options?: Accuracy & CallOptions): unknown {
+    return this.ask('windingNumbers', [handOver(points, false), forEngine(options)], options);
+  }
+
+  contains(points: View, options?: CallOptions): unknown {
+    return this.ask('contains', [handOver(points, false), forEngine(options)], options);
+  }
+
+  voxelize(options?: object): unknown {
+    return this.ask('voxelize', [forEngine(options)], options);
+  }
+
+  slice(options?: object): unknown {
+    return this.ask('slice', [forEngine(options)], options);
+  }
+
+  surface(options?: object): unknown {
+    return this.ask('surface', [forEngine(options)], options);
+  }
+
+  heatMap(options: object): unknown {
+    return this.ask('heatMap', [forEngine(options)], options);
+  }
+
+  export(format: string): unknown {
+    return this.ask('export', [format]);
+  }
+
+  geometry(): unknown {
+    return this.ask('geometry', []);
+  }
+}
+
+class SoupShape extends BaseShape {
+  boundaryEdges(): unknown {
+    return this.ask('boundaryEdges', []);
+  }
+}
+
+class CloudShape extends BaseShape {
+  hasNormals: boolean;
+  hasAreas: boolean;
+
+  constructor(caller: Caller, handle: number, description: Description) {
+    super(caller, handle, description);
+    this.hasNormals = description.hasNormals;
+    this.hasAreas = description.hasAreas;
+  }
+
+  orient(options?: object): unknown {
+    return this.caller.then(this.ask('orient', [forEngine(options)], options), (description) => {
+      Object.assign(this, description);
+    });
+  }
+}
+
+/** What `init` gives: both entries cast it to their own types. */
+export function facade(caller: Caller): object {
+  const make = (method: string, args: unknown[], options: object | undefined) => {
+    const handle = caller.newHandle();
+    return caller.then(caller.call({ method, handle, args }, options as CallOptions | undefined), (value) => {
+      const description = value as Description;
+      const Shape = description.kind === 'soup' ? SoupShape : CloudShape;
+      return new Shape(caller, handle, description);
+    });
+  };
+  const parse = (kind: string | undefined) => (bytes: Uint8Array | ArrayBuffer, options?: ReadOptions & CallOptions) =>
+    make('parse', [asBytes(bytes, options?.transfer), kind, forEngine(options)], options);
+  const dispose = () => caller.dispose();
+  return {
+    info: caller.info,
+    open: parse(undefined),
+    Soup: {
+      parse: parse('soup'),
+      from: ({ positions, indices }: SoupArrays, options?: { transfer?: boolean }) =>
+        make('soup', [positions, indices].map((array) => handOver(array, options?.transfer)), options),
+    },
+    Cloud: {
+      parse: parse('cloud'),
+      from: ({ points, normals, areas }: CloudArrays, options?: { orient?: 'auto'; transfer?: boolean }) => {
+        const arrays = [points, normals, areas].map((array) => handOver(array, options?.transfer));
+        return make('cloud', [...arrays, forEngine(options)], options);
+      },
+    },
+    exportLayer: (layer: Layer, format: string) =>
+      caller.call({ method: 'exportLayer', handle: 0, args: [layer, format] }, undefined),
+    dispose,
+    [Symbol.dispose]: dispose,
+  };
+}

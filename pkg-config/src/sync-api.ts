@@ -1,0 +1,25 @@
+import type * as api from './api.js';
+
+/** The same, with plain values where promises were. */
+type Plain<T> = T extends (...args: infer A) => Promise<infer R> ? (...args: A) => R : T;
+type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
+
+export interface Soup extends Synchronous<api.Soup> {}
+export interface Cloud extends Synchronous<api.Cloud> {}
+export type Shape = Soup | Cloud;
+
+/** An engine that answers at once, on the thread that asks. */
+export interface FastWinding extends Omit<Synchronous<api.FastWinding>, 'open' | 'Soup' | 'Cloud'> {
+  /** Reads a file of any known format: STL, OBJ, PLY, XYZ, OFF, 3MF. */
+  open(bytes: api.Bytes, options?: api.ReadOptions & api.CallOptions): Soup | Cloud;
+  readonly Soup: {
+    /** Reads a file that must hold triangles. */
+    parse(bytes: api.Bytes, options?: api.ReadOptions & api.CallOptions): Soup;
+    from(data: api.SoupArrays, options?: { transfer?: boolean }): Soup;
+  };
+  readonly Cloud: {
+    /** Reads a file that must hold points. */
+    parse(bytes: api.Bytes, options?: api.ReadOptions & api.CallOptions): Cloud;
+    from(data: api.CloudArrays, options?: { orient?: 'auto'; transfer?: boolean }): Cloud;
+  };
+}

@@ -1,0 +1,7 @@
+export type * from './sync-api.js';
+export type {
+  Accuracy, Bounds, Bytes, CallOptions, CloudArrays, CloudFormat, HeatMap, Info, Layer, Mesh, Polygon, Prepared, ReadOptions,
+  SliceOptions, SoupArrays, SoupFormat, SurfaceOptions, VoxelOptions, Voxels, Warning,
+} from './api.js';
+export { WindingError, type ErrorCode } from './error.js';
+export type { SyncInitOptions } from './sync-init.js';

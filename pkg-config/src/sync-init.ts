@@ -1,0 +1,88 @@
+import type { CallOptions, InitOptions } from './api.js';
+import { Engine } from './engine.js';
+import { WindingError, describeError } from './error.js';
+import type { Request } from './protocol.js';
+import { type Caller, facade } from './shapes.js';
+import { hasSimd } from './simd.js';
+import type { FastWinding } from './sync-api.js';
+
+/** Runs an engine on the thread that asks. */
+class Direct implements Caller {
+  readonly info;
+  private counter = 0;
+  private ended: WindingError | undefined;
+
+  constructor(private engine: Engine) {
+    const reason = 'single-threaded: ./sync runs on the thread that calls it';
+    this.info = { threads: 0, simd: true, reason, version: engine.version, memory: 0 };
+  }
+
+  newHandle(): number {
+    return ++this.counter;
+  }
+
+  then(answer: unknown, f: (value: unknown) => unknown): unknown {
+    return f(answer);
+  }
+
+  fail(error: WindingError): never {
+    throw error;
+  }
+
+  call(request: Request, options: CallOptions | undefined): unknown {
+    if (this.ended) {
+      if (request.method === 'free') return undefined;
+      throw this.ended;
+    }
+    let thrown: { error: unknown } | undefined;
+    const { onProgress } = options ?? {};
+    const progress = onProgress && ((fraction: number, stage: string) => {
+      try {
+        onProgress(fraction, stage);
+      } catch (error) {
+        thrown = { error };
+        throw error;
+      }
+    });
+    try {
+      return this.engine.run(request, progress);
+    } catch (error) {
+      if (thrown) throw thrown.error;
+      const { error: data, fatal } = describeError(error);
+      if (fatal) this.ended = new WindingError('Crashed', `${data.message}; call init again`);
+      throw WindingError.from(data);
+    }
+  }
+
+  dispose(): void {
+    this.ended ??= new WindingError('Freed', 'the engine was disposed');
+  }
+
+  get isEnded(): boolean {
+    return this.ended !== undefined;
+  }
+}
+
+export type SyncInitOptions = Pick<InitOptions, 'wasmUrl' | 'signal'>;
+
+/** `init` for a platform that loads the WebAssembly of the single-threaded build with `load`. */
+export function syncInitFor(
+  load: (wasmUrl: string | URL | undefined) => Promise<WebAssembly.Module>,
+): (options?: SyncInitOptions) => Promise<FastWinding> {
+  let engine: Promise<[Direct, FastWinding]> | undefined;
+
+  async function start({ wasmUrl }: SyncInitOptions): Promise<[Direct, FastWinding]> {
+    if (!hasSimd()) throw new WindingError('Unsupported', 'this machine has no WebAssembly SIMD, which the engine needs');
+    const module = await load(wasmUrl);
+    const glue = await import('./single/fast_winding.js');
+    await glue.default({ module_or_path: module });
+    const direct = new Direct(new Engine(glue));
+    return [direct, facade(direct) as FastWinding];
+  }
+
+  return async (options = {}) => {
+    if (engine && (await engine.catch(() => undefined))?.[0].isEnded !== false) engine = undefined;
+    engine ??= start(options);
+    return (await engine)[1];
+  };
+}

@@ -1,0 +1,99 @@
+// The two WebAssembly builds, from one source: `threads` (shared memory, atomics, SIMD) and `single` (SIMD).
+import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { npmTool } from './npm.mjs';
+import { fingerprint, onceFor } from './inputs.mjs';
+import { root, wasmTarget } from './paths.mjs';
+import { StepFailed, run, say } from './run.mjs';
+import { bindgenTools, wasmEnvironment, wasmToolchain } from './rust.mjs';
+
+const RUST_INPUTS = ['Cargo.toml', 'Cargo.lock', 'src', 'pkg-config/tools'];
+const SIMD = '-C panic=unwind -C target-feature=+bulk-memory,+mutable-globals,+simd128';
+const THREADS = [
+  '-C panic=unwind -C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128',
+  ...['shared-memory', 'max-memory=4294967296', 'import-memory'].map((a) => `-C link-arg=--${a}`),
+  ...['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__heap_base'].map((s) => `-C link-arg=--export=${s}`),
+].join(' ');
+
+/** With ssa-nomerge (binaryen 132) the threads build hangs for ever when its pool is made; no other pass of -O3 does that. */
+const OPTIMISATION = ['-O3', '--skip-pass=ssa-nomerge'];
+
+/** Each build by name: its flags, the target directory it shares, and features of the crate. */
+const VARIANTS = {
+  threads: { flags: THREADS, target: 'threads', features: [] },
+  single: { flags: SIMD, target: 'single', features: [] },
+  /** Not part of the package: the threads build with calls that panic and trap on purpose. */
+  faults: { flags: THREADS, target: 'threads', features: ['faults'] },
+};
+
+/** Runs cargo for wasm32 with the flags of `variant`; `args` begin with the command. */
+export async function wasmCargo(variant, args, environment = {}) {
+  const { flags, target } = VARIANTS[variant];
+  const env = {
+    ...wasmEnvironment(await wasmToolchain()),
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags,
+    CARGO_TARGET_DIR: wasmTarget(target),
+    ...environment,
+  };
+  return run('cargo', [...args, '--target', 'wasm32-unknown-unknown', '--release'], { cwd: root, env });
+}
+
+/** Folder of the finished build of a variant: fast_winding.js, fast_winding_bg.wasm, perhaps snippets/. */
+export function wasmOutput(variant) {
+  return join(wasmTarget(VARIANTS[variant].target), `out-${variant}`);
+}
+
+/**
+ * The thread pool's JavaScript is ours (src/pool.ts): the one that wasm-bindgen-rayon generates imports a folder,
+ * which only some bundlers resolve, and lets a trap in a pool worker go unheard.
+ */
+function replacePoolHelpers(folder) {
+  const snippets = join(folder, 'snippets');
+  const names = existsSync(snippets) ? readdirSync(snippets).filter((n) => n.startsWith('wasm-bindgen-rayon-')) : [];
+  const glue = join(folder, 'fast_winding.js');
+  const before = readFileSync(glue, 'utf8');
+  const after = before.replace(/(['"])\.\/snippets\/wasm-bindgen-rayon-[^'"]+\1/, "'../pool.js'");
+  if (names.length !== 1 || before === after) {
+    throw new StepFailed(`wasm-bindgen's output in ${folder} does not import the helper of wasm-bindgen-rayon as expected`);
+  }
+  writeFileSync(glue, after);
+  rmSync(snippets, { recursive: true });
+}
+
+/** The least size of the shared memory, in pages of 64 KiB, for the client, which makes that memory itself. */
+function writeInitialPages(folder) {
+  const pages = readFileSync(join(folder, 'fast_winding.js'), 'utf8').match(/Memory\(\{\s*initial:\s*(\d+)/)?.[1];
+  if (!pages) throw new StepFailed(`wasm-bindgen's output in ${folder} does not say how large its memory starts`);
+  writeFileSync(join(folder, 'memory.js'), `export const initialPages = ${pages};\n`);
+  writeFileSync(join(folder, 'memory.d.ts'), 'export declare const initialPages: number;\n');
+}
+
+async function bindAndOptimise(variant) {
+  const { target } = VARIANTS[variant];
+  const folder = wasmOutput(variant);
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  const compiled = join(wasmTarget(target), 'wasm32-unknown-unknown/release/fast_winding.wasm');
+  const { bindgen } = await bindgenTools();
+  await run(bindgen, ['--target', 'web', '--out-dir', folder, '--out-name', 'fast_winding', compiled]);
+  if (target === 'threads') {
+    replacePoolHelpers(folder);
+    writeInitialPages(folder);
+  }
+  const wasm = join(folder, 'fast_winding_bg.wasm');
+  cpSync(wasm, join(wasmTarget(target), `${variant}-with-names.wasm`));
+  say(`${variant}: wasm-opt`);
+  await run('node', [npmTool('binaryen', 'wasm-opt'), ...OPTIMISATION, wasm, '-o', wasm]);
+}
+
+/** Builds one variant unless its sources are as they were. Answers whether anything had to be done. */
+export async function buildVariant(variant) {
+  const { target, features } = VARIANTS[variant];
+  const stamp = join(wasmTarget(target), `built-${variant}`);
+  const results = [join(wasmOutput(variant), 'fast_winding_bg.wasm')];
+  return onceFor(stamp, fingerprint(RUST_INPUTS, [variant]), results, async () => {
+    say(`${variant}: compiling the WebAssembly build (some minutes the first time)`);
+    await wasmCargo(variant, ['build', '--lib', ...(features.length ? ['--features', features.join()] : [])]);
+    await bindAndOptimise(variant);
+  });
+}

@@ -1,0 +1,103 @@
+//! Geometry to bytes. Coordinates are in millimetres.
+mod obj;
+mod off;
+mod ply;
+mod stl;
+mod svg;
+mod xyz;
+
+pub use svg::write_layer_svg;
+
+use crate::data::TriangleSoup;
+use crate::math::Vec3;
+use std::io::{self, BufWriter, Write};
+
+/// A format that triangles can be written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MeshFormat {
+    /// Binary; coordinates are rounded to `f32`.
+    Stl,
+    /// Text, exact.
+    Obj,
+    /// Binary little endian, exact: `double` if `float` cannot hold every coordinate.
+    Ply,
+    /// Text, exact.
+    Off,
+}
+
+/// A format that points can be written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CloudFormat {
+    /// Binary little endian, exact: `double` if `float` cannot hold every number.
+    Ply,
+    /// Text, exact.
+    Xyz,
+}
+
+/// Writes triangles. Vertices that no triangle uses are kept, for the indices; if not finite, as zero.
+///
+/// # Errors
+/// If and only if `out` refuses to be written to.
+pub fn write_soup(soup: &TriangleSoup, format: MeshFormat, out: &mut impl Write) -> io::Result<()> {
+    let mut out = BufWriter::new(out);
+    match format {
+        MeshFormat::Stl => stl::write(soup, &mut out),
+        MeshFormat::Obj => obj::write(soup, &mut out),
+        MeshFormat::Ply => ply::write_soup(soup, &mut out),
+        MeshFormat::Off => off::write(soup, &mut out),
+    }?;
+    out.flush()
+}
+
+/// Writes points, with their normals if given.
+///
+/// # Panics
+/// If there are not as many normals as points.
+///
+/// # Errors
+/// If and only if `out` refuses to be written to.
+pub fn write_cloud(
+    points: &[Vec3],
+    normals: Option<&[Vec3]>,
+    format: CloudFormat,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    assert!(normals.is_none_or(|n| n.len() == points.len()), "there must be as many normals as points");
+    let mut out = BufWriter::new(out);
+    match format {
+        CloudFormat::Ply => ply::write_cloud(points, normals, &mut out),
+        CloudFormat::Xyz => xyz::write(points, normals, &mut out),
+    }?;
+    out.flush()
+}
+
+/// The vertices of a soup, with zeros for those that are not finite, which no triangle uses.
+fn vertices(soup: &TriangleSoup) -> impl Iterator<Item = Vec3> + '_ {
+    soup.positions().iter().map(|p| if p.is_finite() { *p } else { Vec3::ZERO })
+}
+
+/// Writes three numbers with blanks between them, in as few digits as give the same number back.
+fn write_vector(v: Vec3, out: &mut impl Write) -> io::Result<()> {
+    for (axis, value) in v.to_array().into_iter().enumerate() {
+        let blank = if axis == 0 { "" } else { " " };
+        // Plain digits where they are short; 1e300 would take 301 of them.
+        match value.abs() {
+            0.0 | 1e-5..1e16 => write!(out, "{blank}{value}"),
+            _ => write!(out, "{blank}{value:e}"),
+        }?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_exact() {
+        let v = Vec3::new(0.1, -1e-9, 2.5e300);
+        let mut text = Vec::new();
+        write_vector(v, &mut text).unwrap();
+        assert_eq!(text, b"0.1 -1e-9 2.5e300");
+    }
+}

@@ -1,0 +1,33 @@
+//! Level sets by continuation: from cells that hold geometry to their neighbours, as long as the level set goes on
+//! (Wyvill et al. 1986). Knows grids and inside tests, nothing of where they come from.
+mod cube_cases;
+mod cubes;
+mod seeds;
+mod squares;
+
+pub use cubes::{SurfaceGrid, TraceError, trace_surface};
+pub use seeds::{Cell, cells_of_point, cells_of_shape, cells_of_triangle};
+pub use squares::{PlaneGrid, trace_contours};
+
+/// Steps of bisection on a crossed edge: to a millionth of it.
+const BISECTIONS: u32 = 20;
+
+/// Vertices keep this share of an edge away from its ends, so that no two of them coincide and outlines stay simple.
+const CLEARANCE: f64 = 1e-6;
+
+/// Where between 0 and 1 an inside test changes, given that it is `at_zero` at 0 and the opposite at 1.
+///
+/// Bisection, never interpolation: a winding number jumps at its surface, and between two samples of a cloud's field
+/// lie singularities (Barill et al. 2018, Fig. 9).
+fn crossing(at_zero: bool, mut inside: impl FnMut(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if inside(middle) == at_zero {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (0.5 * (low + high)).clamp(CLEARANCE, 1.0 - CLEARANCE)
+}

@@ -1,0 +1,39 @@
+use crate::bvh::WIDTH;
+use crate::math::Vec3;
+use wide::f64x4;
+
+/// Four points, one in each SIMD lane.
+pub type Lanes = [f64x4; 3];
+
+/// A rule that integrates polynomials of degree 2 over one source: the mean over `points`, times the area.
+#[derive(Clone, Copy, Debug)]
+pub struct Quadrature {
+    /// Edge midpoints of a triangle (Barill et al. 2018, eq. 29); three times the same for a point.
+    pub points: [Vec3; 3],
+    pub area_vector: Vec3,
+    pub area: f64,
+}
+
+/// A kind of source: what its far field is made of and how its near field is summed.
+pub trait Kernel: Sync {
+    /// Four sources, ready to be summed together.
+    type Block: Clone + Send + Sync;
+    /// A near field while it is being summed.
+    type Sum;
+
+    /// Number of sources.
+    fn len(&self) -> usize;
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// The points whose hull is the source.
+    fn corners(&self, index: usize) -> [Vec3; 3];
+    fn quadrature(&self, index: usize) -> Quadrature;
+    /// Packs up to four sources; a lane without a source must add nothing.
+    fn block(&self, members: [Option<usize>; WIDTH]) -> Self::Block;
+
+    fn sum() -> Self::Sum;
+    fn add(sum: &mut Self::Sum, block: &Self::Block, query: &Lanes);
+    /// The winding number of all blocks added.
+    fn total(sum: Self::Sum) -> f64;
+}

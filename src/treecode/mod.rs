@@ -1,0 +1,11 @@
+//! Barnes–Hut summation of many small sources: far clusters by their multipole moments, near ones singly.
+//!
+//! Barill et al. 2018, sections 3.2 and 3.3 (algorithm 1, eqs. 6 to 21, appendices A and B).
+mod expansion;
+mod kernel;
+mod moments;
+mod tree;
+
+pub use expansion::Order;
+pub use kernel::{Kernel, Lanes, Quadrature};
+pub use tree::{Tree, TreeConfig};

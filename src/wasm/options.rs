@@ -1,0 +1,296 @@
+//! Options as JavaScript gives them, to what the core takes.
+use super::failure::{Failure, object};
+use crate::data::{Lattice, Layer, Polygon, Ring, Warning};
+use crate::io::{self, CloudFormat, MeshFormat};
+use crate::math::{Aabb, Vec2};
+use crate::slice::{LayerPlan, SampleAt, SliceConfig};
+use crate::solid::{VoxelConfig, VoxelMethod};
+use crate::surface::SurfaceConfig;
+use crate::winding::{Accuracy, FieldConfig, Order};
+use serde::{Deserialize, de::DeserializeOwned};
+use wasm_bindgen::JsValue;
+
+/// Options from a JavaScript object; `undefined` gives the defaults.
+pub fn from_js<T: DeserializeOwned + Default>(options: JsValue) -> Result<T, Failure> {
+    if options.is_undefined() || options.is_null() {
+        return Ok(T::default());
+    }
+    serde_wasm_bindgen::from_value(options).map_err(|error| Failure::invalid(format!("bad options: {error}")))
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Orient {
+    Auto,
+}
+
+#[derive(Default, Deserialize)]
+pub struct CloudOptions {
+    pub orient: Option<Orient>,
+}
+
+#[derive(Default, Deserialize)]
+pub struct ReadOptions {
+    unit: Option<String>,
+    pub orient: Option<Orient>,
+}
+
+impl ReadOptions {
+    pub fn for_io(&self) -> Result<io::ReadOptions, Failure> {
+        let unit = self.unit.as_deref().map_or(Ok(io::Unit::default()), str::parse).map_err(Failure::invalid)?;
+        Ok(io::ReadOptions { unit })
+    }
+}
+
+#[derive(Default, Deserialize)]
+pub struct OrientOptions {
+    method: Option<String>,
+}
+
+impl OrientOptions {
+    pub fn check(&self) -> Result<(), Failure> {
+        match self.method.as_deref() {
+            None | Some("propagation") => Ok(()),
+            Some(other) => Err(Failure::invalid(format!("unknown method '{other}': 'propagation' is known"))),
+        }
+    }
+}
+
+/// How winding numbers are to be computed.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct AccuracyOptions {
+    tolerance: Option<f64>,
+    order: Option<u8>,
+    beta: Option<f64>,
+    leaf_size: Option<usize>,
+}
+
+impl AccuracyOptions {
+    /// `of_paper` completes an order or a β that comes alone.
+    pub fn accuracy(&self, of_paper: Accuracy) -> Result<Accuracy, Failure> {
+        let Accuracy::Explicit { order, beta } = of_paper else { return Ok(of_paper) };
+        let order = match self.order {
+            None => order,
+            Some(0) => Order::Zero,
+            Some(1) => Order::One,
+            Some(2) => Order::Two,
+            Some(other) => return Err(Failure::invalid(format!("order {other}: 0, 1 or 2 is needed"))),
+        };
+        let beta = self.beta.unwrap_or(beta);
+        if !(beta.is_finite() && beta > 0.0) {
+            return Err(Failure::invalid(format!("beta {beta}: a finite number above 0 is needed")));
+        }
+        match self.tolerance {
+            Some(t) if !(t.is_finite() && t >= 0.0) => {
+                Err(Failure::invalid(format!("tolerance {t}: a finite number from 0 is needed")))
+            }
+            Some(t) => Ok(Accuracy::Tolerance(t)),
+            None if self.order.is_none() && self.beta.is_none() => Ok(Accuracy::default()),
+            None => Ok(Accuracy::Explicit { order, beta }),
+        }
+    }
+
+    pub fn field_config(&self) -> Result<Option<FieldConfig>, Failure> {
+        match self.leaf_size {
+            Some(0) => Err(Failure::invalid("leafSize 0: 1 or more is needed")),
+            size => Ok(size.map(|leaf_size| FieldConfig { leaf_size })),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum VoxelFormat {
+    #[default]
+    Bytes,
+    Bits,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum VoxelMethodName {
+    Lattice,
+    Continuation,
+}
+
+/// Which voxels are wanted, and how.
+#[derive(Default, Deserialize)]
+pub struct VoxelOptions {
+    resolution: Option<usize>,
+    spacing: Option<f64>,
+    counts: Option<[usize; 3]>,
+    threshold: Option<f64>,
+    method: Option<VoxelMethodName>,
+    #[serde(default)]
+    pub format: VoxelFormat,
+    #[serde(default)]
+    pub surface: bool,
+}
+
+impl VoxelOptions {
+    const RESOLUTION: usize = 64;
+
+    pub fn lattice(&self, bounds: Aabb) -> Result<Lattice, Failure> {
+        let lattice = match (self.resolution, self.spacing, self.counts) {
+            (resolution, None, None) => {
+                Lattice::with_resolution(bounds, resolution.unwrap_or(VoxelOptions::RESOLUTION))
+            }
+            (None, Some(spacing), None) => Lattice::with_spacing(bounds, spacing),
+            (None, None, Some(counts)) => Lattice::with_counts(bounds, counts),
+            _ => return Err(Failure::invalid("give only one of resolution, spacing and counts")),
+        };
+        Ok(lattice?)
+    }
+
+    pub fn config(&self) -> VoxelConfig {
+        let default = VoxelConfig::default();
+        let method = self.method.map(|method| match method {
+            VoxelMethodName::Lattice => VoxelMethod::Lattice,
+            VoxelMethodName::Continuation => VoxelMethod::Continuation,
+        });
+        VoxelConfig {
+            threshold: self.threshold.unwrap_or(default.threshold),
+            method: method.unwrap_or(default.method),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum SampleAtName {
+    Bottom,
+    Middle,
+    Top,
+}
+
+/// Which layers are wanted, and how fine.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct SliceOptions {
+    layer_height: Option<f64>,
+    first_layer_height: Option<f64>,
+    sample_at: Option<SampleAtName>,
+    heights: Option<Vec<f64>>,
+    tolerance: Option<f64>,
+    resolution: Option<usize>,
+}
+
+impl SliceOptions {
+    pub fn config(&self) -> SliceConfig {
+        let resolution = self.resolution.unwrap_or(SliceConfig::default().resolution);
+        SliceConfig { resolution, spacing: self.tolerance }
+    }
+
+    pub fn plan(self) -> LayerPlan {
+        let default = LayerPlan::default();
+        let sample_at = self.sample_at.map(|sample_at| match sample_at {
+            SampleAtName::Bottom => SampleAt::Bottom,
+            SampleAtName::Middle => SampleAt::Middle,
+            SampleAtName::Top => SampleAt::Top,
+        });
+        LayerPlan {
+            layer_height: self.layer_height.unwrap_or(default.layer_height),
+            first_layer_height: self.first_layer_height,
+            sample_at: sample_at.unwrap_or_default(),
+            heights: self.heights,
+        }
+    }
+}
+
+/// How fine a surface is wanted, and at which winding number.
+#[derive(Default, Deserialize)]
+pub struct SurfaceOptions {
+    resolution: Option<usize>,
+    spacing: Option<f64>,
+    level: Option<f64>,
+}
+
+impl SurfaceOptions {
+    pub fn config(&self) -> SurfaceConfig {
+        let default = SurfaceConfig::default();
+        SurfaceConfig {
+            resolution: self.resolution.unwrap_or(default.resolution),
+            spacing: self.spacing,
+            level: self.level.unwrap_or(default.level),
+        }
+    }
+}
+
+/// Which plane is wanted, and how fine.
+#[derive(Default, Deserialize)]
+pub struct HeatMapOptions {
+    z: Option<f64>,
+    resolution: Option<usize>,
+}
+
+impl HeatMapOptions {
+    const RESOLUTION: usize = 128;
+
+    pub fn z(&self) -> Result<f64, Failure> {
+        self.z.filter(|z| z.is_finite()).ok_or_else(|| Failure::invalid("z must be given, and finite"))
+    }
+
+    pub fn resolution(&self) -> usize {
+        self.resolution.unwrap_or(HeatMapOptions::RESOLUTION)
+    }
+}
+
+pub fn mesh_format(name: &str) -> Result<MeshFormat, Failure> {
+    match name {
+        "stl" => Ok(MeshFormat::Stl),
+        "obj" => Ok(MeshFormat::Obj),
+        "ply" => Ok(MeshFormat::Ply),
+        "off" => Ok(MeshFormat::Off),
+        _ => Err(Failure::invalid(format!("unknown format '{name}': soups can be 'stl', 'obj', 'ply' or 'off'"))),
+    }
+}
+
+pub fn cloud_format(name: &str) -> Result<CloudFormat, Failure> {
+    match name {
+        "ply" => Ok(CloudFormat::Ply),
+        "xyz" => Ok(CloudFormat::Xyz),
+        _ => Err(Failure::invalid(format!("unknown format '{name}': clouds can be 'ply' or 'xyz'"))),
+    }
+}
+
+/// `{ code, count, message }`.
+pub fn warning_to(warning: &Warning) -> JsValue {
+    let code = serde_wasm_bindgen::to_value(&warning.kind).expect("a kind is a name");
+    object([("code", code), ("count", warning.count.into()), ("message", warning.to_string().into())]).into()
+}
+
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct LayerObject {
+    z_bottom: f64,
+    z_top: f64,
+    z_sample: f64,
+    polygons: Vec<PolygonObject>,
+}
+
+#[derive(Deserialize)]
+struct PolygonObject {
+    outer: Vec<f64>,
+    holes: Vec<Vec<f64>>,
+}
+
+/// A ring from xyxy….
+fn ring_from(numbers: &[f64]) -> Ring {
+    numbers.as_chunks().0.iter().map(|&[x, y]| Vec2::new(x, y)).collect()
+}
+
+/// A layer as JavaScript holds it.
+pub fn layer_from(layer: JsValue) -> Result<Layer, Failure> {
+    let layer: LayerObject = from_js(layer)?;
+    let polygon = |polygon: PolygonObject| Polygon {
+        outer: ring_from(&polygon.outer),
+        holes: polygon.holes.iter().map(|hole| ring_from(hole)).collect(),
+    };
+    Ok(Layer {
+        z_bottom: layer.z_bottom,
+        z_top: layer.z_top,
+        z_sample: layer.z_sample,
+        polygons: layer.polygons.into_iter().map(polygon).collect(),
+    })
+}
