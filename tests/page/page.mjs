@@ -4,6 +4,7 @@
 export async function openPage(browser, url, { width = 1600, height = 900 } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
   const page = await context.newPage();
+  page.setDefaultTimeout(60_000);
   page.errors = [];
   page.on('pageerror', (error) => page.errors.push(error.message));
   await page.goto(url);
@@ -55,8 +56,18 @@ export async function slide(page, selector, value) {
   }, value);
 }
 
-export async function contour(page) {
+/** The path of the layer sampled at height `z`, once it is shown. */
+export async function contourAt(page, z) {
+  await page.waitForFunction((z) => {
+    const shown = document.querySelector('#plan-svg .contour')?.dataset.z;
+    return shown && Math.abs(Number(shown) - z) < 1e-3;
+  }, z);
   return page.getAttribute('#plan-svg .contour', 'd');
+}
+
+/** Height at which the sample's layer `index` is sampled: its lowest point, and half a millimetre a layer. */
+export function sampleHeight(index) {
+  return 32.9874 + 0.5 * (index + 0.5);
 }
 
 /** How many pixels of the 3D view differ from its background. */

@@ -4,10 +4,11 @@ import { launch } from './browser.mjs';
 import { openPage, slide } from './page.mjs';
 import { serve } from './serve.mjs';
 
-const LAYER = 96;
+/** Low enough to meet the holes under the scan, where w is a fraction. */
+const LAYER = 10;
 
 const [browser, server] = await Promise.all([launch(), serve()]);
-const page = await openPage(browser, server.url, { width: 1600, height: 900 });
+const page = await openPage(browser, server.url, { width: 1440, height: 810 });
 await slide(page, '#layer-slider', LAYER);
 await page.check('#heat');
 await page.waitForFunction(() => document.querySelector('#plan-svg image'));

@@ -1,5 +1,5 @@
 /** Serves the built page over HTTP, with or without the headers that make it cross-origin isolated. */
-import { createReadStream, statSync } from 'node:fs';
+import { createReadStream, existsSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -20,6 +20,7 @@ const ISOLATION = {
 
 /** Resolves to the page's URL and a function that ends the server. */
 export async function serve({ isolated = true } = {}) {
+  if (!existsSync(DIST)) throw new Error('the page is not built: run npm --prefix www run build');
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
     const file = join(DIST, path === '/' ? 'index.html' : path);

@@ -25,8 +25,8 @@ export interface Span {
 export function spanOf(values: Float64Array): Span {
   let reach = 0;
   for (const value of values) reach = Math.max(reach, Math.abs(value - 0.5));
-  // A little beyond an integer is approximation, not worth a wider scale.
-  const half = Math.min(2.5, Math.max(1, Math.ceil(reach - 0.6) + 0.5));
+  // A tenth beyond the scale is approximation, not worth a wider one.
+  const half = Math.min(2.5, Math.max(1, Math.ceil(2 * (reach - 0.1)) / 2));
   return { low: 0.5 - half, high: 0.5 + half };
 }
 

@@ -15,7 +15,7 @@ export class Jobs {
     return this.#running !== undefined;
   }
 
-  /** Cancels what runs, waits until it has stopped, then starts `work`. */
+  /** Cancels what runs, waits until it has stopped, then starts `work`, which tells its own progress. */
   async run<T>(label: string, work: (options: Required<CallOptions>) => Promise<T>): Promise<T> {
     while (this.#running) {
       this.#running.controller.abort();

@@ -4,7 +4,6 @@ import type { Geometry, Model } from '../state.ts';
 
 /** Reads a source into a model whose field is built. */
 export async function load(page: Page, source: Source, options: Required<CallOptions>): Promise<Model> {
-  options.onProgress(0, 'fetching');
   const bytes = await source.read(options.signal);
   const start = performance.now();
   const shape = await page.engine.open(bytes, { ...options, unit: source.unit, transfer: true });

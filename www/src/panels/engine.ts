@@ -12,9 +12,9 @@ export function enginePanel(store: Store<State>): void {
     byId('engine').dataset.state = info.threads > 1 ? 'threads' : 'single';
     byId('engine').title = sentence(info.reason);
     byId('engine-text').textContent = threadsOf(info);
+    byId('engine-reason').textContent = sentence(info.reason);
     setFacts(byId('engine-facts'), [
       ['Threads', String(Math.max(1, info.threads))],
-      ['Because', info.reason],
       ['SIMD', info.simd ? 'yes' : 'no'],
       ['Version', info.version],
     ]);

@@ -53,9 +53,9 @@ export function modelControls(page: Page): void {
       menu.prepend(ownFile);
     } else ownFile.remove();
     menu.value = isSample ? model.name : '';
-    const note = SAMPLES.find(({ file }) => file === model.name)?.note;
-    byId('sample-note').hidden = !note;
-    byId('sample-note').textContent = note ?? '';
+    const sample = SAMPLES.find(({ file }) => file === model.name);
+    byId('sample-note').hidden = !sample;
+    byId('sample-note').textContent = sample ? `${sample.note}. Model: ${sample.credit}.` : '';
   });
   const unit = byId<HTMLSelectElement>('unit');
   unit.replaceChildren(...UNITS.map(([value, text]) => new Option(text, value)));

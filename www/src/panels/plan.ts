@@ -67,7 +67,7 @@ function drawing({ model, layer, heat }: State): string {
   const frame = `<rect class="frame" x="${min[0]}" y="${-max[1]}" width="${max[0] - min[0]}" height="${max[1] - min[1]}"/>`;
   const path = layer ? pathOf(layer.value) : '';
   const image = heat ? heatImage(heat.value) : '';
-  return `${image}${frame}<path class="region" fill-rule="evenodd" d="${path}"/><path class="contour" d="${path}"/>`;
+  return `${image}${frame}<path class="region" fill-rule="evenodd" d="${path}"/><path class="contour" data-z="${layer?.value.zSample ?? ''}" d="${path}"/>`;
 }
 
 function heatImage(map: Parameters<typeof paintHeat>[0]): string {

@@ -12,15 +12,14 @@ import type { Surroundings } from './part.ts';
 const PLANE_MARGIN = 0.08;
 const CONTOUR_PIXELS = 2.5;
 
-/** The frame of the cutting plane, and its pane when no heat map lies on it. */
-export function planePane(bounds: Rectangle, z: number, origin: Float64Array, isFilled: boolean): Object3D[] {
+/** The cutting plane: a frame and a faint pane. */
+export function planePane(bounds: Rectangle, z: number, origin: Float64Array): Object3D[] {
   const margin = PLANE_MARGIN * Math.max(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1]);
   const [x0, y0] = [bounds.min[0] - margin - origin[0], bounds.min[1] - margin - origin[1]];
   const [x1, y1] = [bounds.max[0] + margin - origin[0], bounds.max[1] + margin - origin[1]];
   const h = z - origin[2];
   const ends = new Float32Array([x0, y0, h, x1, y0, h, x1, y0, h, x1, y1, h, x1, y1, h, x0, y1, h, x0, y1, h, x0, y0, h]);
   const frame = thinLines(ends, '--view-layer', [], 0.55);
-  if (!isFilled) return [frame];
   const pane = new Mesh(
     new PlaneGeometry(x1 - x0, y1 - y0),
     new MeshBasicMaterial({ color: token('--view-layer'), transparent: true, opacity: 0.07, side: DoubleSide, depthWrite: false }),

@@ -15,7 +15,7 @@ export function twoSidedMesh(triangles: Triangles, frontToken: string, cut: Plan
   geometry.setAttribute('position', new BufferAttribute(triangles.positions, 3));
   geometry.setIndex(new BufferAttribute(triangles.indices, 1));
   if (triangles.normals) geometry.setAttribute('normal', new BufferAttribute(triangles.normals, 3));
-  const side = (colour: string, which: typeof FrontSide | typeof BackSide): Mesh =>
+  const side = (colour: string, which: typeof FrontSide | typeof BackSide, depthOffset: number): Mesh =>
     new Mesh(
       geometry,
       new MeshStandardMaterial({
@@ -25,11 +25,11 @@ export function twoSidedMesh(triangles: Triangles, frontToken: string, cut: Plan
         metalness: 0,
         flatShading: !triangles.normals,
         clippingPlanes: cut,
-        // Lines that lie on the mesh are drawn over it.
         polygonOffset: true,
-        polygonOffsetFactor: 1,
-        polygonOffsetUnits: 1,
+        polygonOffsetFactor: depthOffset,
+        polygonOffsetUnits: depthOffset,
       }),
     );
-  return [side(frontToken, FrontSide), side('--view-back', BackSide)];
+  // Lines on the mesh lie before it, and fronts before the backs they meet along a silhouette.
+  return [side(frontToken, FrontSide, 1), side('--view-back', BackSide, 3)];
 }

@@ -26,6 +26,9 @@ const VERTEX = /* glsl */ `
     facing = HAS_NORMALS ? dot(normalize(normalMatrix * normal), normalize(-mvPosition.xyz)) : 0.0;
     depth = clamp((-mvPosition.z - depths.x) / (depths.y - depths.x), 0.0, 1.0);
     gl_Position = projectionMatrix * mvPosition;
+    // A line through the points lies before their discs.
+    vec4 behind = projectionMatrix * (mvPosition - vec4(0.0, 0.0, diameter, 0.0));
+    gl_Position.z = behind.z * gl_Position.w / behind.w;
     gl_PointSize = max(2.0, diameter * projectionMatrix[1][1] * viewHeight / (2.0 * gl_Position.w));
   }
 `;

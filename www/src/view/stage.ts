@@ -15,7 +15,7 @@ export class Stage {
   readonly camera = new PerspectiveCamera(32, 1, 0.1, 1000);
   readonly #renderer: WebGLRenderer;
   readonly #controls: OrbitControls;
-  readonly #afterDraw: (() => void)[] = [];
+  readonly #beforeDraw: (() => void)[] = [];
   #box?: Box;
   #isWaiting = false;
 
@@ -36,13 +36,15 @@ export class Stage {
     this.#isWaiting = true;
     requestAnimationFrame(() => {
       this.#isWaiting = false;
+      this.camera.updateMatrixWorld();
+      for (const call of this.#beforeDraw) call();
       this.#renderer.render(this.scene, this.camera);
-      for (const call of this.#afterDraw) call();
     });
   }
 
-  afterDraw(call: () => void): void {
-    this.#afterDraw.push(call);
+  /** Calls before each drawing, with the camera where it will be. */
+  beforeDraw(call: () => void): void {
+    this.#beforeDraw.push(call);
   }
 
   /** Looks at the whole box; from where the camera is unless a direction is given. */

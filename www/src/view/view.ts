@@ -31,7 +31,7 @@ export class View {
     this.#store = store;
     this.#stage = new Stage(byId<HTMLCanvasElement>('canvas'));
     this.#stage.scene.add(...Object.values(this.#parts).map((part) => part.group));
-    this.#stage.afterDraw(() => drawAxes(byId<SVGElement>('axes'), this.#stage.camera));
+    this.#stage.beforeDraw(() => this.#followCamera());
     this.#followStore();
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-view]')) {
       const direction = button.dataset.view === 'fit' ? undefined : (button.dataset.view as Direction);
@@ -46,6 +46,15 @@ export class View {
     this.#showLayer();
     this.#showSolid('voxels', this.#store.state.voxels?.value.surface);
     this.#showSolid('surface', this.#store.state.surface?.value);
+  }
+
+  /** From below, the floor would hide what stands on it. */
+  #followCamera(): void {
+    const { camera } = this.#stage;
+    const { model } = this.#store.state;
+    if (!model) return;
+    drawAxes(byId<SVGElement>('axes'), camera);
+    this.#parts.floor.group.visible = camera.position.z > model.bounds.min[2] - model.geometry.origin[2];
   }
 
   #followStore(): void {
@@ -99,7 +108,8 @@ export class View {
     const z = planeHeight(plane, model.bounds);
     this.#cutPlane.constant = z - origin[2];
     const rectangle = { min: [model.bounds.min[0], model.bounds.min[1]], max: [model.bounds.max[0], model.bounds.max[1]] } as const;
-    this.#parts.pane.replace(...planePane(rectangle, z, origin, !heat));
+    // A heat map of this height takes the pane's place.
+    this.#parts.pane.replace(...(heat?.value.z === z ? [] : planePane(rectangle, z, origin)));
     this.#stage.draw();
   }
 
