@@ -63,26 +63,33 @@ class Direct implements Caller {
   }
 }
 
-export type SyncInitOptions = Pick<InitOptions, 'wasmUrl' | 'signal'>;
+export type SyncInitOptions = Pick<InitOptions, 'wasmUrl'>;
 
 /** `init` for a platform that loads the WebAssembly of the single-threaded build with `load`. */
 export function syncInitFor(
   load: (wasmUrl: string | URL | undefined) => Promise<WebAssembly.Module>,
 ): (options?: SyncInitOptions) => Promise<FastWinding> {
-  let engine: Promise<[Direct, FastWinding]> | undefined;
+  let engine: Promise<FastWinding> | undefined;
+  let direct: Direct | undefined;
+  /** The module holds one instance: after a crash or `dispose` it is made anew. */
+  let isLoaded = false;
 
-  async function start({ wasmUrl }: SyncInitOptions): Promise<[Direct, FastWinding]> {
+  async function start({ wasmUrl }: SyncInitOptions): Promise<FastWinding> {
     if (!hasSimd()) throw new WindingError('Unsupported', 'this machine has no WebAssembly SIMD, which the engine needs');
-    const module = await load(wasmUrl);
     const glue = await import('./single/fast_winding.js');
-    await glue.default({ module_or_path: module });
-    const direct = new Direct(new Engine(glue));
-    return [direct, facade(direct) as FastWinding];
+    if (isLoaded) glue.__wbg_reset_state();
+    else await glue.default({ module_or_path: await load(wasmUrl) });
+    isLoaded = true;
+    direct = new Direct(new Engine(glue));
+    return facade(direct) as FastWinding;
   }
 
-  return async (options = {}) => {
-    if (engine && (await engine.catch(() => undefined))?.[0].isEnded !== false) engine = undefined;
-    engine ??= start(options);
-    return (await engine)[1];
+  return (options = {}) => {
+    if (direct?.isEnded) engine = direct = undefined;
+    if (!engine) {
+      engine = start(options);
+      engine.catch(() => (engine = undefined));
+    }
+    return engine;
   };
 }

@@ -87,7 +87,12 @@ export async function wasmToolchain() {
 
 /** The variables that make cargo build for wasm32 with that tool chain. Never to be set for a native build. */
 export function wasmEnvironment(toolchain) {
-  const environment = { CARGO_UNSTABLE_BUILD_STD: 'panic_unwind,std', CARGO_PROFILE_RELEASE_PANIC: 'unwind' };
+  const environment = {
+    CARGO_UNSTABLE_BUILD_STD: 'panic_unwind,std',
+    CARGO_PROFILE_RELEASE_PANIC: 'unwind',
+    CARGO_PROFILE_RELEASE_LTO: 'fat',
+    CARGO_PROFILE_RELEASE_CODEGEN_UNITS: '1',
+  };
   if (sysroot('nightly')) environment.RUSTUP_TOOLCHAIN = 'nightly';
   if (toolchain === 'debian') {
     const linkerHome = sysroot('nightly') ?? output('rustc', ['--print', 'sysroot']);

@@ -75,7 +75,9 @@ async function bindAndOptimise(variant) {
   mkdirSync(folder, { recursive: true });
   const compiled = join(wasmTarget(target), 'wasm32-unknown-unknown/release/fast_winding.wasm');
   const { bindgen } = await bindgenTools();
-  await run(bindgen, ['--target', 'web', '--out-dir', folder, '--out-name', 'fast_winding', compiled]);
+  // So that `./sync`, whose engine lives as long as its module, can begin anew after a crash.
+  const reset = target === 'single' ? ['--experimental-reset-state-function'] : [];
+  await run(bindgen, ['--target', 'web', ...reset, '--out-dir', folder, '--out-name', 'fast_winding', compiled]);
   if (target === 'threads') {
     replacePoolHelpers(folder);
     writeInitialPages(folder);

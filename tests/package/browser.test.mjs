@@ -1,0 +1,111 @@
+// The package in a plain page, without a bundler: with and without cross-origin isolation, and from another origin.
+import assert from 'node:assert/strict';
+import { createReadStream, existsSync, statSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { extname, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch } from '../page/browser.mjs';
+import { install } from './install.mjs';
+
+const { home } = install();
+const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
+const ISOLATED = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
+const FOR_ALL = { 'Access-Control-Allow-Origin': '*', 'Cross-Origin-Resource-Policy': 'cross-origin' };
+
+/** Serves the package's files, and an empty page at /. */
+async function serve(headers) {
+  const server = createServer(({ url }, response) => {
+    const path = new URL(url, 'http://here').pathname;
+    const file = join(home, path);
+    if (path === '/') return response.writeHead(200, { ...headers, 'Content-Type': 'text/html' }).end('<!doctype html>');
+    if (!existsSync(file) || !statSync(file).isFile()) return response.writeHead(404, headers).end();
+    response.writeHead(200, { ...headers, 'Content-Type': TYPES[extname(file)] ?? 'text/plain' });
+    return createReadStream(file).pipe(response);
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  return { origin: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
+}
+
+let chromium;
+const servers = {};
+before(async () => {
+  chromium = await launch();
+  servers.isolated = await serve({ ...ISOLATED, ...FOR_ALL });
+  servers.plain = await serve(FOR_ALL);
+});
+after(async () => {
+  await chromium.close();
+  Object.values(servers).forEach((server) => server.close());
+});
+
+/** Runs `action(module)` in a page of `server` with a module of the package, which comes from `origin`. */
+async function inPage(server, origin, file, action) {
+  const page = await chromium.newPage();
+  try {
+    await page.goto(`${server.origin}/`);
+    return await page.evaluate(`import(${JSON.stringify(`${origin}/dist/${file}`)}).then(${action})`);
+  } finally {
+    await page.close();
+  }
+}
+
+/** A loose tetrahedron asked twice; run in the page. */
+const ask = async ({ init }) => {
+  const fw = await init();
+  const soup = await fw.Soup.from({
+    positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
+    indices: new Uint32Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]),
+  });
+  const inside = [...(await soup.contains(new Float64Array([0.2, 0.2, 0.2, 1, 1, 1])))];
+  const { counts } = await soup.voxelize({ resolution: 3 });
+  return { inside, counts, threads: fw.info.threads, reason: fw.info.reason, isolated: self.crossOriginIsolated };
+};
+const answers = { inside: [1, 0], counts: [3, 3, 3] };
+
+test('an isolated page gets threads', async () => {
+  const { threads, reason, ...rest } = await inPage(servers.isolated, servers.isolated.origin, 'index.js', ask);
+  assert.deepEqual(rest, { ...answers, isolated: true });
+  assert.ok(threads >= 1);
+  assert.match(reason, /threads: one for each processor/);
+});
+
+test('a page that is not isolated gets the single-threaded build and the reason', async () => {
+  const { reason, ...rest } = await inPage(servers.plain, servers.plain.origin, 'index.js', ask);
+  assert.deepEqual(rest, { ...answers, isolated: false, threads: 0 });
+  assert.match(reason, /not cross-origin isolated/);
+});
+
+test('the package may come from another origin, threads included', async () => {
+  const { threads, reason, ...rest } = await inPage(servers.isolated, servers.plain.origin, 'index.js', ask);
+  assert.deepEqual(rest, { ...answers, isolated: true });
+  assert.ok(threads >= 1, reason);
+});
+
+test('the synchronous entry works on the page itself', async () => {
+  const { inside, threads } = await inPage(servers.plain, servers.plain.origin, 'sync.js', ask);
+  assert.deepEqual([inside, threads], [[1, 0], 0]);
+});
+
+test('an abort takes effect in both builds, and the page stays responsive meanwhile', async () => {
+  const abort = async ({ init }) => {
+    const fw = await init();
+    const positions = new Float64Array(90000).map((_, i) => 10 * ((i * 0.618034) % 1));
+    const soup = await fw.Soup.from({ positions });
+    const controller = new AbortController();
+    const call = soup.voxelize({ resolution: 400, signal: controller.signal });
+    let [longest, last] = [0, performance.now()];
+    for (let i = 0; i < 20; i++) {
+      await new Promise((resolve) => setTimeout(resolve, 5));
+      const now = performance.now();
+      [longest, last] = [Math.max(longest, now - last), now];
+    }
+    controller.abort();
+    const code = await call.catch((error) => error.code);
+    return { code, longest, again: (await soup.contains(new Float64Array(3))).length };
+  };
+  for (const server of [servers.isolated, servers.plain]) {
+    const { code, longest, again } = await inPage(server, server.origin, 'index.js', abort);
+    assert.deepEqual([code, again], ['Aborted', 1]);
+    assert.ok(longest < 200, `the page hung for ${longest} ms`);
+  }
+});

@@ -1,0 +1,159 @@
+// Every method on a box and on a cloud, in both entries: `.` with two threads and with none, and `./sync`.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { install } from './install.mjs';
+import { area, box, boxObj, sphere, volume } from './shapes.mjs';
+
+const { load } = install();
+const entries = {
+  'two threads': async () => (await load('node/index.js')).init({ threads: 2 }),
+  'no threads': async () => (await load('node/index.js')).init({ threads: false }),
+  sync: async () => (await load('node/sync.js')).init(),
+};
+const near = (found, expected, tolerance) =>
+  assert.ok(Math.abs(found - expected) <= tolerance, `${found} is not within ${tolerance} of ${expected}`);
+
+for (const [name, start] of Object.entries(entries)) {
+  test(`${name}: a box`, async (t) => {
+    const fw = await start();
+    const soup = await fw.open(boxObj());
+    assert.deepEqual([soup.kind, soup.format, soup.count, soup.warnings], ['soup', 'OBJ', 12, []]);
+    assert.deepEqual(soup.bounds, { min: [0, 0, 0], max: [10, 10, 10] });
+
+    await t.test('prepare', async () => {
+      const { milliseconds, bytes, method, components, boundaryEdges, caps } = await soup.prepare({ leafSize: 4 });
+      assert.ok(milliseconds >= 0 && bytes > 0 && method.includes('triangles'));
+      assert.deepEqual([components, boundaryEdges, caps], [1, 0, 0]);
+    });
+    await t.test('winding numbers are 1 inside, 0 outside, and 1/2, 1/4, 1/8 on a face, an edge, a vertex', async () => {
+      const points = new Float64Array([5, 5, 5, 5, 5, 50, 5, 5, 10, 0, 5, 10, 10, 10, 10]);
+      const w = await soup.windingNumbers(points, { tolerance: 0 });
+      assert.ok(w instanceof Float64Array);
+      [1, 0, 1 / 2, 1 / 4, 1 / 8].forEach((expected, i) => near(w[i], expected, 1e-12));
+      assert.equal(points.length, 15, 'the points are still the caller’s');
+      const fast = await soup.windingNumbers(new Float32Array([5, 5, 5, 5, 5, 50]), { order: 2, beta: 2 });
+      [1, 0].forEach((expected, i) => near(fast[i], expected, 1e-2));
+    });
+    await t.test('contains', async () => {
+      assert.deepEqual(await soup.contains(new Float32Array([5, 5, 5, 11, 5, 5])), new Uint8Array([1, 0]));
+    });
+    await t.test('voxelize', async () => {
+      const voxels = await soup.voxelize({ resolution: 4, surface: true });
+      assert.deepEqual([voxels.counts, voxels.origin, voxels.spacing], [[4, 4, 4], [1.25, 1.25, 1.25], [2.5, 2.5, 2.5]]);
+      assert.deepEqual([voxels.count, voxels.volume, voxels.inside], [64, 1000, new Uint8Array(64).fill(1)]);
+      assert.equal(voxels.surface.positions.length, 3 * 98, 'corners of a 4 × 4 × 4 block, each once');
+      near(volume(voxels.surface), 1000, 1e-3);
+      const bits = await soup.voxelize({ counts: [2, 3, 4], format: 'bits', method: 'continuation' });
+      assert.deepEqual([bits.inside, bits.surface], [new Uint8Array([255, 255, 255]), undefined]);
+      assert.deepEqual((await soup.voxelize({ spacing: 5 })).counts, [2, 2, 2]);
+    });
+    await t.test('slice', async () => {
+      const layers = await soup.slice({ layerHeight: 2, firstLayerHeight: 4, resolution: 8 });
+      assert.deepEqual(layers.map((l) => [l.zBottom, l.zSample, l.zTop]), [[0, 2, 4], [4, 5, 6], [6, 7, 8], [8, 9, 10]]);
+      for (const { polygons } of layers) {
+        assert.deepEqual([polygons.length, polygons[0].holes.length], [1, 0]);
+        near(area(polygons[0].outer), 100, 6);
+      }
+      const [low, high] = await soup.slice({ heights: new Float64Array([1, 9]), tolerance: 0.5 });
+      assert.deepEqual([low.zSample, high.zSample], [1, 9]);
+      assert.deepEqual((await soup.slice({ heights: [11], resolution: 8 }))[0].polygons, []);
+      const svg = new TextDecoder().decode(await fw.exportLayer(low, 'svg'));
+      assert.match(svg, /^<svg [^]*<path [^]*<\/svg>\s*$/);
+    });
+    await t.test('surface', async () => {
+      const mesh = await soup.surface({ resolution: 12 });
+      near(volume(mesh), 1000, 60);
+      assert.deepEqual([mesh.normals.length, mesh.origin], [mesh.positions.length, new Float64Array(3)]);
+    });
+    await t.test('heat map', async () => {
+      const map = await soup.heatMap({ z: 5, resolution: 12 });
+      assert.deepEqual([map.counts, map.z, map.values.length], [[12, 12], 5, 144]);
+      near(map.values[6 * 12 + 6], 1, 1e-2);
+      near(map.values[0], 0, 1e-1);
+    });
+    await t.test('geometry and boundary edges', async () => {
+      const { positions, indices, origin } = await soup.geometry();
+      assert.deepEqual([positions, indices, origin], [new Float32Array(box(0, 10).positions), box(0, 10).indices, new Float64Array(3)]);
+      assert.equal((await soup.boundaryEdges()).count, 0);
+      const { positions: corners, indices: faces } = box(0, 10);
+      const open = await fw.Soup.from({ positions: corners, indices: faces.slice(6) });
+      const edges = await open.boundaryEdges();
+      assert.deepEqual([edges.count, edges.positions.length], [4, 24]);
+    });
+    await t.test('export, and back', async () => {
+      for (const format of ['stl', 'obj', 'ply', 'off']) {
+        const again = await fw.Soup.parse(await soup.export(format));
+        assert.deepEqual([again.count, again.bounds], [12, soup.bounds], format);
+      }
+    });
+    await t.test('far from the origin, positions are relative', async () => {
+      const far = await fw.Soup.from(box(1e7, 1e7 + 1));
+      const { positions, origin } = await far.geometry();
+      assert.deepEqual([origin[0], Math.max(...positions)], [1e7 + 0.5, 0.5]);
+    });
+    fw.dispose();
+  });
+
+  test(`${name}: a cloud`, async (t) => {
+    const fw = await start();
+    const { points, normals } = sphere(2000, 10);
+    const cloud = await fw.Cloud.from({ points, normals });
+    assert.deepEqual([cloud.kind, cloud.format, cloud.count, cloud.hasNormals, cloud.hasAreas], ['cloud', 'arrays', 2000, true, false]);
+
+    await t.test('winding numbers, voxels, layers, surface', async () => {
+      assert.ok((await cloud.prepare()).method.includes('points'));
+      const w = await cloud.windingNumbers(new Float64Array([0, 0, 0, 30, 0, 0]), { tolerance: 0 });
+      near(w[0], 1, 1e-2);
+      near(w[1], 0, 1e-2);
+      assert.deepEqual(await cloud.contains(new Float64Array([0, 0, 0, 30, 0, 0])), new Uint8Array([1, 0]));
+      const exact = (4 / 3) * Math.PI * 1000;
+      near((await cloud.voxelize({ resolution: 30, method: 'continuation' })).volume, exact, 0.03 * exact);
+      const [layer] = await cloud.slice({ heights: [0], resolution: 64 });
+      near(area(layer.polygons[0].outer), 100 * Math.PI, 6);
+      near(volume(await cloud.surface({ resolution: 24 })), exact, 0.02 * exact);
+      assert.equal((await cloud.heatMap({ z: 0, resolution: 4 })).values.length, 16);
+    });
+    await t.test('without normals it needs to be oriented', async () => {
+      const bare = await fw.Cloud.from({ points });
+      await assert.rejects(async () => bare.contains(points.slice(0, 3)), { code: 'MissingNormals' });
+      assert.equal(bare.hasNormals, false);
+      await bare.orient();
+      assert.deepEqual([bare.hasNormals, bare.hasAreas, bare.warnings[0].code], [true, true, 'estimated-normals']);
+      assert.deepEqual(await bare.contains(new Float64Array([0, 0, 0])), new Uint8Array([1]));
+      const { normals: estimated, areas } = await bare.geometry();
+      near(areas.reduce((a, b) => a + b), 400 * Math.PI, 10);
+      near(estimated[0] * normals[0] + estimated[1] * normals[1] + estimated[2] * normals[2], 1, 0.05);
+      const auto = await fw.Cloud.from({ points }, { orient: 'auto' });
+      assert.equal(auto.hasNormals, true);
+    });
+    await t.test('export, and back', async () => {
+      for (const format of ['ply', 'xyz']) {
+        const again = await fw.Cloud.parse(await cloud.export(format));
+        assert.deepEqual([again.count, again.hasNormals], [2000, true], format);
+      }
+    });
+    fw.dispose();
+  });
+}
+
+test('one thread, two threads and none give equal bits', async () => {
+  const { init } = await load('node/index.js');
+  const { points, normals } = sphere(3000, 10);
+  const queries = new Float64Array(30000).map((_, i) => 20 * ((i * 0.618034) % 1) - 10);
+  const results = [];
+  for (const threads of [1, 2, false]) {
+    const fw = await init({ threads });
+    const soup = await fw.Soup.from({ positions: points.slice(0, 8991) });
+    const cloud = await fw.Cloud.from({ points, normals });
+    const parts = [];
+    for (const shape of [soup, cloud]) {
+      parts.push(await shape.windingNumbers(queries), await shape.windingNumbers(queries, { order: 1, beta: 1.5 }));
+      parts.push((await shape.surface({ resolution: 16 })).positions, (await shape.voxelize({ resolution: 24 })).inside);
+      parts.push(...(await shape.slice({ heights: [0.5], resolution: 40 }))[0].polygons.map((p) => p.outer));
+    }
+    results.push(parts);
+    fw.dispose();
+  }
+  assert.deepEqual(results[1], results[0]);
+  assert.deepEqual(results[2], results[0]);
+});
