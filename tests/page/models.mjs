@@ -7,14 +7,24 @@ const BOX_FACES = [
   [0, 4, 6, 2], [1, 3, 7, 5], // left, right
 ];
 
+function boxCorner(min, max, bits) {
+  return [0, 1, 2].map((k) => (bits & (1 << k) ? max[k] : min[k]));
+}
+
+/** A closed box of six quadrilaterals as OBJ, from `min` to `max`. */
+export function boxObj(min, max) {
+  const vertices = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => `v ${boxCorner(min, max, bits).join(' ')}`);
+  const faces = BOX_FACES.map((face) => `f ${face.map((corner) => corner + 1).join(' ')}`);
+  return Buffer.from([...vertices, ...faces, ''].join('\n'));
+}
+
 /** A closed box of 12 triangles as binary STL, from `min` to `max`. */
 export function boxStl(min, max) {
-  const corner = (bits) => [0, 1, 2].map((k) => (bits & (1 << k) ? max[k] : min[k]));
   const triangles = BOX_FACES.flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]);
   const bytes = Buffer.alloc(84 + 50 * triangles.length);
   bytes.writeUInt32LE(triangles.length, 80);
   triangles.forEach((triangle, i) => {
-    triangle.flatMap(corner).forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k));
+    triangle.flatMap((bits) => boxCorner(min, max, bits)).forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k));
   });
   return bytes;
 }

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { after, before, describe, test } from 'node:test';
 import { launch } from './browser.mjs';
-import { boxStl, sphereXyz } from './models.mjs';
+import { boxObj, boxStl, sphereXyz } from './models.mjs';
 import { contourAt, drawnPixels, dropFile, fact, number, openPage, sampleHeight, settled, slide } from './page.mjs';
 import { serve } from './serve.mjs';
 
@@ -44,7 +44,9 @@ describe('the sample', () => {
   test('runs on threads and says how many', () =>
     withPage({}, async (page) => {
       const threads = await number(page, 'engine-facts', 'Threads');
-      assert.equal(threads, await page.evaluate(() => navigator.hardwareConcurrency));
+      const processors = await page.evaluate(() => navigator.hardwareConcurrency);
+      assert.ok(threads >= Math.min(2, processors) && threads <= processors, `${threads} threads on ${processors} processors`);
+      assert.match(await page.textContent('#engine-text'), new RegExp(`^${threads} threads?, SIMD$`));
       assert.equal(await page.getAttribute('#engine', 'data-state'), threads > 1 ? 'threads' : 'single');
     }));
 
@@ -69,6 +71,16 @@ describe('a dropped file', () => {
       // A square of the slicer's grid, 1/256 of 40 mm, may cut each of the four corners: (2 − √2) of its side each.
       assert.ok(Math.abs((await number(page, 'layer-facts', 'Perimeter')) - 140) < (4 * (2 - Math.SQRT2) * 40) / 256);
       assert.equal(await page.locator('#sample option:checked').textContent(), 'box.stl');
+    }));
+
+  test('far from the origin is cut and drawn as well as one near it', () =>
+    withPage({}, async (page) => {
+      await dropFile(page, 'survey.obj', boxObj([500_000, 4_000_000, 100], [500_040, 4_000_030, 120]));
+      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await settled(page);
+      assert.equal(await fact(page, 'facts', 'Size'), '40 × 30 × 20 mm');
+      assert.ok(Math.abs((await number(page, 'layer-facts', 'Area')) - 1200) < 1);
+      assert.ok((await drawnPixels(page)) > 0.1);
     }));
 
   test('in metres is made larger, and what is too large for a printer is warned of', () =>
