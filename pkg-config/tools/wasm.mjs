@@ -8,9 +8,11 @@ import { StepFailed, run, say } from './run.mjs';
 import { bindgenTools, wasmEnvironment, wasmToolchain } from './rust.mjs';
 
 const RUST_INPUTS = ['Cargo.toml', 'Cargo.lock', 'src', 'pkg-config/tools'];
-const SIMD = '-C panic=unwind -C target-feature=+bulk-memory,+mutable-globals,+simd128';
+/** A panic's place in the source would cost a tenth of the download; its message stays. */
+const COMMON = '-C panic=unwind -Z location-detail=none';
+const SIMD = `${COMMON} -C target-feature=+bulk-memory,+mutable-globals,+simd128`;
 const THREADS = [
-  '-C panic=unwind -C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128',
+  `${COMMON} -C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128`,
   ...['shared-memory', 'max-memory=4294967296', 'import-memory'].map((a) => `-C link-arg=--${a}`),
   ...['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__heap_base'].map((s) => `-C link-arg=--export=${s}`),
 ].join(' ');
