@@ -2,8 +2,8 @@
 //! duplicates and self-intersections, and point clouds.
 //!
 //! Bytes become a [`TriangleSoup`] or a [`PointCloud`] ([`io::read`]); a cloud is completed with normals and areas
-//! ([`estimate`]) to an [`OrientedCloud`]; either gets a [`WindingField`], built once; the features ([`solid`], [`slice`](mod@slice)(mod@slice),
-//! [`surface`], [`check`](mod@check)) ask that field. Results are plain data.
+//! ([`estimate`]) to an [`OrientedCloud`]; either gets a [`WindingField`], built once; the features ([`solid`],
+//! [`slice`](mod@slice), [`surface`], [`check`](mod@check)) ask that field. Results are plain data.
 //!
 //! Right-handed frame, z up, millimetres; normals point outward; the winding number is 1 inside. The method is that of
 //! Barill et al. 2018, *Fast Winding Numbers for Soups and Clouds*.
