@@ -1,5 +1,12 @@
 //! **fast-winding** answers *inside or outside?* for geometry as it is found: triangle soups with holes, flips,
 //! duplicates and self-intersections, and point clouds.
+//!
+//! Bytes become a [`TriangleSoup`] or a [`PointCloud`] ([`io::read`]); a cloud is completed with normals and areas
+//! ([`estimate`]) to an [`OrientedCloud`]; either gets a [`WindingField`], built once; the features ([`solid`],
+//! [`slice`](mod@slice), [`surface`], [`check`](mod@check)) ask that field. Results are plain data.
+//!
+//! Right-handed frame, z up, millimetres; normals point outward; the winding number is 1 inside. The method is that of
+//! Barill et al. 2018, *Fast Winding Numbers for Soups and Clouds*.
 #![deny(unsafe_code)]
 
 pub mod bvh;
@@ -19,3 +26,8 @@ pub mod winding;
 
 pub use data::{Lattice, OrientedCloud, PointCloud, TriangleSoup};
 pub use winding::WindingField;
+
+/// The examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -99,6 +99,24 @@ impl TriangleSoup {
     }
 }
 
+fn check_indices(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), SoupError> {
+    let vertices = positions.len();
+    if vertices > u32::MAX as usize {
+        return Err(SoupError::TooManyVertices(vertices));
+    }
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(&index) = corners.iter().find(|index| **index as usize >= vertices) {
+            return Err(SoupError::IndexOutOfRange { triangle, index, vertices });
+        }
+    }
+    Ok(())
+}
+
+/// The first vertex that a triangle uses and that is not finite; the indices are in range.
+fn first_non_finite(positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<usize> {
+    triangles.iter().flatten().map(|index| *index as usize).find(|index| !positions[*index].is_finite())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,5 +137,17 @@ mod tests {
             TriangleSoup::new(positions, vec![[0, 3, 2]]),
             Err(SoupError::NonFiniteVertex { vertex: 3 })
         );
+    }
+
+    #[test]
+    fn arrays_may_hold_a_few_vertices_that_are_not_finite() {
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::INFINITY];
+        let (soup, warnings) = TriangleSoup::usable(positions.clone(), vec![[0, 1, 2], [0, 1, 3]]).unwrap();
+        assert_eq!((soup.len(), warnings), (1, vec![Warning::new(WarningKind::NonFiniteFaces, 1)]));
+        let none_left = TriangleSoup::usable(positions.clone(), vec![[0, 1, 3]]);
+        assert_eq!(none_left, Err(SoupError::NonFiniteVertex { vertex: 3 }));
+        let wrong_index = TriangleSoup::usable(positions, vec![[0, 1, 2], [4, 1, 3]]);
+        assert_eq!(wrong_index, Err(SoupError::IndexOutOfRange { triangle: 1, index: 4, vertices: 4 }));
+        assert!(TriangleSoup::usable(vec![], vec![]).unwrap().0.is_empty());
     }
 }

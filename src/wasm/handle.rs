@@ -70,12 +70,12 @@ impl Handle {
     pub fn from_triangles(positions: JsValue, indices: Option<Uint32Array>) -> Result<Handle, JsValue> {
         let positions = points_from("positions", &positions)?;
         let triangles = triangles_from(indices.as_ref(), positions.len())?;
-        let soup = TriangleSoup::new(positions, triangles).map_err(Failure::from)?;
+        let (soup, warnings) = TriangleSoup::usable(positions, triangles).map_err(Failure::from)?;
         if soup.is_empty() {
             return Err(Failure::new("EmptyInput", "there are no triangles: at least one is needed").into());
         }
         let source = Source::Soup(Arc::new(soup));
-        Ok(Handle { source, format: "arrays", warnings: vec![], field: None })
+        Ok(Handle { source, format: "arrays", warnings, field: None })
     }
 
     /// A cloud of arrays: points and perhaps normals xyzxyz…, areas one for each.

@@ -51,7 +51,11 @@ for (const [name, start] of Object.entries(entries)) {
     await fails(() => fw.open(boxObj(), { unit: 'parsec' }), 'InvalidArgument');
     await fails(() => fw.Cloud.parse(boxObj()), 'InvalidArgument');
     const { positions, indices } = box(0, 1);
-    await fails(() => fw.Soup.from({ positions: positions.map((x, i) => (i === 4 ? NaN : x)), indices }), 'NonFiniteVertex', { vertex: 1 });
+    const spoiled = positions.map((x, i) => (i === 4 ? NaN : x));
+    const dented = await fw.Soup.from({ positions: spoiled, indices });
+    const uses = indices.filter((index) => index === 1).length;
+    assert.deepEqual([dented.count, dented.warnings[0].code, dented.warnings[0].count], [12 - uses, 'non-finite-faces', uses]);
+    await fails(() => fw.Soup.from({ positions: spoiled, indices: new Uint32Array([0, 1, 2]) }), 'NonFiniteVertex', { vertex: 1 });
     await fails(() => fw.Soup.from({ positions, indices: new Uint32Array([0, 1, 9]) }), 'IndexOutOfRange', { index: 9, vertices: 8 });
     await fails(() => fw.Soup.from({ positions: new Float32Array(0) }), 'EmptyInput');
     await fails(() => fw.Soup.from({ positions: new Float32Array(8) }), 'InvalidArgument');
