@@ -2,9 +2,10 @@
 //! in the unit of the root model; other model files that objects name (the production extension) are followed.
 //! Objects with a mirroring transform are turned over, so that they stay solid.
 //!
-//! Written over `zip` and `quick-xml` rather than taken from `threemf2`, which unpacks an archive whole, whatever
+//! Written over `flate2` and `quick-xml` rather than taken from `threemf2`, which unpacks an archive whole, whatever
 //! its size becomes. Here a model is parsed as it is unpacked, and what comes out is bounded: see `package.rs` for
 //! the unpacked size and `place.rs` for copies of copies.
+mod archive;
 mod model;
 mod package;
 mod place;

@@ -1,11 +1,11 @@
 //! The archive: which file is the model, and how much of it may be unpacked.
+use super::archive::Archive;
 use super::error;
 use super::xml::Events;
 use crate::io::ReadError;
 use quick_xml::events::Event;
 use rustc_hash::FxHashMap;
-use std::io::{self, BufRead, BufReader, Cursor, Read};
-use zip::ZipArchive;
+use std::io::{self, BufRead, BufReader, Read};
 
 /// Bytes of model text that an archive may unpack to for each of its own. Text of meshes shrinks to between a
 /// quarter and a twentieth; a ZIP bomb to a thousandth.
@@ -18,7 +18,7 @@ const RELATIONSHIPS: &str = "_rels/.rels";
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
 pub(super) struct Package<'a> {
-    archive: ZipArchive<Cursor<&'a [u8]>>,
+    archive: Archive<'a>,
     /// Places of the files in the archive by name, in lower case: letter case does not count in OPC.
     places: FxHashMap<String, usize>,
     /// Bytes that may still be unpacked.
@@ -27,9 +27,9 @@ pub(super) struct Package<'a> {
 
 impl<'a> Package<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Package<'a>, ReadError> {
-        let archive = ZipArchive::new(Cursor::new(bytes))
-            .map_err(|cause| error(0, format!("a whole ZIP archive, found one that fails with: {cause}")))?;
-        let names = archive.file_names().enumerate();
+        let archive =
+            Archive::open(bytes).map_err(|found| error(0, format!("a whole ZIP archive, found {found}")))?;
+        let names = archive.names().enumerate();
         let places = names.map(|(place, name)| (name.to_ascii_lowercase(), place)).collect();
         Ok(Package { archive, places, left: UNPACKED_ANYWAY + UNPACKED_PER_BYTE * bytes.len() as u64 })
     }
@@ -55,15 +55,15 @@ impl<'a> Package<'a> {
 
     /// The name of the file at `place`, for messages.
     pub fn name(&self, place: usize) -> String {
-        self.archive.name_for_index(place).unwrap_or_default().to_owned()
+        self.archive.names().nth(place).unwrap_or_default().to_owned()
     }
 
     /// The content of the file at `place`.
     pub fn unpack(&mut self, place: usize) -> Result<impl BufRead + '_, ReadError> {
         let name = self.name(place);
         let left = &mut self.left;
-        let file = self.archive.by_index(place);
-        let file = file.map_err(|cause| error(0, format!("a readable file '{name}', found: {cause}")))?;
+        let file = self.archive.unpack(place);
+        let file = file.map_err(|found| error(0, format!("a readable file '{name}', found {found}")))?;
         Ok(BufReader::new(Bounded { file, left }))
     }
 }
