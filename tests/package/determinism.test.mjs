@@ -1,0 +1,53 @@
+// The same input gives the same bits, whatever the number of threads, and in both entries.
+import assert from 'node:assert/strict';
+import { createHash } from 'node:crypto';
+import { test } from 'node:test';
+import { install } from './install.mjs';
+import { sphere, torus } from './shapes.mjs';
+
+const { load } = install();
+const { init } = await load('node/index.js');
+const sync = await load('node/sync.js');
+const engines = {
+  'one thread': () => init({ threads: 1 }),
+  'two threads': () => init({ threads: 2 }),
+  'no threads': () => init({ threads: false }),
+  sync: () => sync.init(),
+};
+
+/** Digests of every result that holds floats or classifications. */
+async function digests(fw) {
+  const digest = (...arrays) => {
+    const hash = createHash('sha256');
+    for (const a of arrays) hash.update(new Uint8Array(a.buffer, a.byteOffset, a.byteLength));
+    return hash.digest('hex');
+  };
+  const { positions, indices } = torus(60);
+  const soup = await fw.Soup.from({ positions, indices: indices.subarray(0, indices.length - 600) });
+  const { points } = sphere(3000, 10);
+  const cloud = await fw.Cloud.from({ points }, { orient: 'auto' });
+  const queries = positions.map((x, i) => x * (0.9 + 0.01 * (i % 7)));
+  const results = {};
+  for (const [kind, shape] of Object.entries({ soup, cloud })) {
+    results[`${kind}: fast`] = digest(await shape.windingNumbers(queries));
+    results[`${kind}: exact`] = digest(await shape.windingNumbers(queries.subarray(0, 300), { tolerance: 0 }));
+    results[`${kind}: voxels`] = digest((await shape.voxelize({ resolution: 40 })).inside);
+    const layers = await shape.slice({ layerHeight: 1 });
+    results[`${kind}: layers`] = digest(...layers.flatMap((l) => l.polygons.flatMap((p) => [p.outer, ...p.holes])));
+    const mesh = await shape.surface({ resolution: 24 });
+    results[`${kind}: surface`] = digest(mesh.positions, mesh.normals, mesh.indices);
+  }
+  const { normals, areas } = await cloud.geometry();
+  results['estimates'] = digest(normals, areas);
+  return results;
+}
+
+test('any number of threads gives the same bits', async () => {
+  const all = {};
+  for (const [name, start] of Object.entries(engines)) {
+    const fw = await start();
+    all[name] = await digests(fw);
+    fw.dispose();
+  }
+  for (const name of Object.keys(engines)) assert.deepEqual(all[name], all['one thread'], name);
+});
