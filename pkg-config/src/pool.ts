@@ -14,6 +14,8 @@ export interface PoolMessage {
   channel: string;
 }
 
+/** Where this module lies when nothing has bundled it. */
+const unbundled: string = import.meta.url;
 let crashChannel = '';
 /** Kept so that no browser collects workers which only share memory. */
 const workers: Worker[] = [];
@@ -28,7 +30,8 @@ function newWorker(): Worker {
     return new Worker(new URL('./pool-worker.js', import.meta.url), { type: 'module' });
   } catch {
     // From another origin, such as a CDN, only a script of this one may start a worker: one that imports the other.
-    const url = new URL(['.', 'pool-worker.js'].join('/'), import.meta.url);
+    // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
+    const url = new URL('./pool-worker.js', unbundled);
     const script = new Blob([`import ${JSON.stringify(url.href)};`], { type: 'text/javascript' });
     return new Worker(URL.createObjectURL(script), { type: 'module' });
   }
