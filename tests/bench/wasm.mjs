@@ -1,7 +1,7 @@
 // Measures the package in Node on the Stanford bunny: one and two threads, beside the native build on as many.
 // Run by `npm --prefix www run bench`; prints medians in milliseconds, and ratios.
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { init } from '../../pkg/dist/node/index.js';
@@ -23,18 +23,20 @@ async function timed(action) {
   return median(times);
 }
 
-/** The 50³ lattice over the bounds of the paper's Fig. 10, as points. */
-function lattice({ min, max }, n = 50) {
-  const at = (axis, i) => min[axis] + ((max[axis] - min[axis]) * (i + 0.5)) / n;
-  const points = new Float64Array(3 * n ** 3);
-  for (let i = 0; i < n ** 3; i++) points.set([at(0, i % n), at(1, Math.floor(i / n) % n), at(2, Math.floor(i / n ** 2))], 3 * i);
+/** The cell centres of a lattice, as points. */
+function centres({ counts: [nx, ny, nz], origin, spacing }) {
+  const points = new Float64Array(3 * nx * ny * nz);
+  for (let i = 0; i < nx * ny * nz; i++) {
+    const cell = [i % nx, Math.floor(i / nx) % ny, Math.floor(i / (nx * ny))];
+    points.set(cell.map((c, axis) => origin[axis] + spacing[axis] * c), 3 * i);
+  }
   return points;
 }
 
 async function measureWasm(threads, bytes) {
   const fw = await init({ threads });
   const shape = await fw.open(bytes);
-  const points = lattice(shape.bounds);
+  const points = centres(await shape.voxelize({ resolution: 50 }));
   const build = async () => {
     const fresh = await fw.open(bytes);
     const { milliseconds } = await fresh.prepare();
@@ -47,35 +49,37 @@ async function measureWasm(threads, bytes) {
   const result = {
     'build the tree': median(builds),
     '50³ points, order 2, β 2': await timed(() => shape.windingNumbers(points, { order: 2, beta: 2 })),
-    '50³ points, inside or not': await timed(() => shape.contains(points)),
-    '100³ voxels': await timed(() => shape.voxelize({ counts: [100, 100, 100] })),
+    '50³ voxels': await timed(() => shape.voxelize({ resolution: 50 })),
+    '100³ voxels': await timed(() => shape.voxelize({ resolution: 100 })),
     '60 layers': await timed(() => shape.slice({ layerHeight: (shape.bounds.max[2] - shape.bounds.min[2]) / 60 })),
     'surface, resolution 64': await timed(() => shape.surface({ resolution: 64 })),
   };
   fw.dispose();
-  return [result, points];
+  return result;
 }
 
-/** The native build through tests/bench/measure.rs: the first three rows. */
-function measureNative(threads, points) {
+/** The native build through tests/bench/measure.rs: the rows that it has too. */
+function measureNative(threads) {
   const folder = mkdtempSync(join(tmpdir(), 'fast-winding-bench-'));
-  writeFileSync(join(folder, 'points'), new Uint8Array(points.buffer));
-  const args = ['run', '--release', '--quiet', '--example', 'measure', '--', model, join(folder, 'points'), join(folder, 'values')];
   const env = { ...process.env, RAYON_NUM_THREADS: String(threads) };
-  const runs = Array.from({ length: REPEATS }, () => JSON.parse(execFileSync('cargo', args, { cwd: root, env, encoding: 'utf8' })));
+  const measure = (resolution) => {
+    const args = ['run', '--release', '--quiet', '--example', 'measure', '--', model, String(resolution), join(folder, 'values')];
+    return JSON.parse(execFileSync('cargo', args, { cwd: root, env, encoding: 'utf8' }));
+  };
+  const runs = Array.from({ length: REPEATS }, () => [measure(50), measure(100)]);
   rmSync(folder, { recursive: true });
-  const of = (key) => 1000 * median(runs.map((run) => run[key]));
+  const of = (key, which) => 1000 * median(runs.map((run) => run[which][key]));
   return {
-    'build the tree': of('build'),
-    '50³ points, order 2, β 2': of('evaluation'),
-    '50³ points, inside or not': of('classification'),
+    'build the tree': of('build', 0),
+    '50³ points, order 2, β 2': of('scattered', 0),
+    '50³ voxels': of('voxels', 0),
+    '100³ voxels': of('voxels', 1),
   };
 }
 
 const bytes = readFileSync(model);
-const [one, points] = await measureWasm(1, bytes);
-const [two] = await measureWasm(2, bytes);
-const [native, nativeTwo] = [measureNative(1, points), measureNative(2, points)];
+const [one, two] = [await measureWasm(1, bytes), await measureWasm(2, bytes)];
+const [native, nativeTwo] = [measureNative(1), measureNative(2)];
 
 const number = (value, digits, unit) => (value === undefined ? '–' : value.toFixed(digits) + unit);
 const rows = Object.keys(one).map((name) => ({
