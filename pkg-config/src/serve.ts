@@ -2,7 +2,8 @@
 import { describeError } from './error.js';
 import { Engine, type Glue } from './engine.js';
 import { initialPages } from './threads/memory.js';
-import { nameCrashChannel } from './pool.js';
+import { usePoolStarter } from './pool.js';
+import { poolStarter } from './pool-start.js';
 import type { FromWorker, Ready, StartMessage, ToWorker } from './protocol.js';
 
 /** Sizes the shared memory may grow to, in pages of 64 KiB: 4, 2, 1 GiB, 512 MiB. Some devices refuse the larger. */
@@ -12,7 +13,7 @@ const PROGRESS_INTERVAL = 30;
 
 export interface Host {
   post(message: FromWorker, transfer: Transferable[]): void;
-  /** The WebAssembly of a build, from `wasmUrl`; `undefined` where wasm-bindgen's code finds it beside itself. */
+  /** The WebAssembly of a build, from `wasmUrl` or from beside this module; `undefined` leaves it to wasm-bindgen's code. */
   load(build: 'threads' | 'single', wasmUrl: string | undefined): Promise<WebAssembly.Module | undefined>;
 }
 
@@ -33,7 +34,7 @@ async function startThreads(host: Host, { threads, wasmUrl, channel, reason }: S
   const module = await host.load('threads', wasmUrl);
   const glue = await import('./threads/fast_winding.js');
   await glue.default({ module_or_path: module!, memory });
-  nameCrashChannel(channel);
+  usePoolStarter(poolStarter(channel));
   await glue.initThreadPool(threads);
   const engine = new Engine(glue as unknown as Glue);
   const cancel = { buffer: memory.buffer as unknown as SharedArrayBuffer, address: engine.job.address() };

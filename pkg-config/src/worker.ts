@@ -4,6 +4,9 @@ import { serve } from './serve.js';
 
 const answer = serve({
   post: (message, transfer) => self.postMessage(message, { transfer }),
-  load: async (build, wasmUrl) => (wasmUrl ? fetchModule(wasmFile(build, wasmUrl)) : undefined),
+  load: async (build, wasmUrl) => {
+    if (wasmUrl) return fetchModule(wasmFile(build, wasmUrl));
+    return build === 'threads' ? fetchModule((await import('./threads-wasm.js')).threadsWasm) : undefined;
+  },
 });
 self.addEventListener('message', ({ data }) => answer(data));
