@@ -3,13 +3,17 @@ import type { Platform, Port, PortListener } from './protocol.js';
 
 export * from './exports.js';
 
+/** Where this module lies when nothing has bundled it. */
+const unbundled: string = import.meta.url;
+
 function newWorker(url: string | URL | undefined): Worker {
   try {
     // Written out, so that bundlers find the worker.
     return url ? new Worker(url, { type: 'module' }) : new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
   } catch {
     // From another origin, such as a CDN, only a script of this one may start a worker: one that imports the other.
-    const other = new URL(url ?? ['.', 'worker.js'].join('/'), url ? location.href : import.meta.url);
+    // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
+    const other = url ? new URL(url, location.href) : new URL('./worker.js', unbundled);
     const script = new Blob([`import ${JSON.stringify(other.href)};`], { type: 'text/javascript' });
     return new Worker(URL.createObjectURL(script), { type: 'module' });
   }

@@ -1,5 +1,5 @@
 // One worker of the thread pool: it runs rayon's loop in the shared memory until it is ended.
-import type { PoolMessage } from './pool.js';
+import type { PoolMessage } from './pool-start.js';
 
 async function join({ module, memory, receiver, channel }: PoolMessage): Promise<void> {
   const glue = await import('./threads/fast_winding.js');

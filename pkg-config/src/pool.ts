@@ -1,63 +1,23 @@
-// Starts the workers of the thread pool: called by the threads build of the WebAssembly when its pool is made.
+// What the threads build of the WebAssembly imports to start its pool. Apart from pool-start.ts, so that the workers of
+// the pool, which load the same build, do not refer to themselves: bundlers handle such circles badly.
 
-interface PoolBuilder {
+export interface PoolBuilder {
   numThreads(): number;
   receiver(): number;
   build(): void;
 }
 
-export interface PoolMessage {
-  type: 'fast-winding-pool-start';
-  module: WebAssembly.Module;
-  memory: WebAssembly.Memory;
-  receiver: number;
-  channel: string;
+export type PoolStarter = (module: WebAssembly.Module, memory: WebAssembly.Memory, builder: PoolBuilder) => Promise<void>;
+
+let starter: PoolStarter | undefined;
+
+/** Says how the pool of this worker's engine is started. */
+export function usePoolStarter(start: PoolStarter): void {
+  starter = start;
 }
 
-let crashChannel = '';
-/** Kept so that no browser collects workers which only share memory. */
-const workers: Worker[] = [];
-
-/** Names the BroadcastChannel on which a pool worker says that it trapped: the engine, blocked, could not hear it. */
-export function nameCrashChannel(name: string): void {
-  crashChannel = name;
-}
-
-function newWorker(): Worker {
-  try {
-    return new Worker(new URL('./pool-worker.js', import.meta.url), { type: 'module' });
-  } catch {
-    // From another origin, such as a CDN, only a script of this one may start a worker: one that imports the other.
-    const url = new URL(['.', 'pool-worker.js'].join('/'), import.meta.url);
-    const script = new Blob([`import ${JSON.stringify(url.href)};`], { type: 'text/javascript' });
-    return new Worker(URL.createObjectURL(script), { type: 'module' });
-  }
-}
-
-function startWorker(message: PoolMessage): Promise<Worker> {
-  return new Promise((resolve, reject) => {
-    const worker = newWorker();
-    workers.push(worker);
-    worker.addEventListener('message', ({ data }) => {
-      if (data === 'fast-winding-pool-listening') worker.postMessage(message);
-      else if (data === 'fast-winding-pool-ready') resolve(worker);
-      else if (data?.error) reject(new Error(data.error));
-    });
-    worker.addEventListener('error', (event) => {
-      reject(new Error(event.message || 'a worker of the thread pool could not be loaded'));
-    });
-  });
-}
-
-/** Part of the interface of wasm-bindgen-rayon: starts a worker for each thread of `builder`, then builds the pool. */
-export async function startWorkers(module: WebAssembly.Module, memory: WebAssembly.Memory, builder: PoolBuilder): Promise<void> {
-  const receiver = builder.receiver();
-  const message: PoolMessage = { type: 'fast-winding-pool-start', module, memory, receiver, channel: crashChannel };
-  try {
-    await Promise.all(Array.from({ length: builder.numThreads() }, () => startWorker(message)));
-  } catch (error) {
-    workers.splice(0).forEach((worker) => worker.terminate());
-    throw error;
-  }
-  builder.build();
-}
+/** Part of the interface of wasm-bindgen-rayon. */
+export const startWorkers: PoolStarter = (module, memory, builder) => {
+  if (!starter) throw new Error('nothing says how the thread pool is started');
+  return starter(module, memory, builder);
+};

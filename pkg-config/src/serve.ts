@@ -2,7 +2,8 @@
 import { describeError } from './error.js';
 import { Engine, type Glue } from './engine.js';
 import { initialPages } from './threads/memory.js';
-import { nameCrashChannel } from './pool.js';
+import { usePoolStarter } from './pool.js';
+import { poolStarter } from './pool-start.js';
 import type { FromWorker, Ready, StartMessage, ToWorker } from './protocol.js';
 
 /** Sizes the shared memory may grow to, in pages of 64 KiB: 4, 2, 1 GiB, 512 MiB. Some devices refuse the larger. */
@@ -12,8 +13,8 @@ const PROGRESS_INTERVAL = 30;
 
 export interface Host {
   post(message: FromWorker, transfer: Transferable[]): void;
-  /** The WebAssembly of a build, from `wasmUrl` or from beside this module. */
-  load(build: 'threads' | 'single', wasmUrl: string | undefined): Promise<WebAssembly.Module>;
+  /** The WebAssembly of a build, from `wasmUrl` or from beside this module; `undefined` leaves it to wasm-bindgen's code. */
+  load(build: 'threads' | 'single', wasmUrl: string | undefined): Promise<WebAssembly.Module | undefined>;
 }
 
 function sharedMemory(): WebAssembly.Memory {
@@ -32,8 +33,8 @@ async function startThreads(host: Host, { threads, wasmUrl, channel, reason }: S
   const memory = sharedMemory();
   const module = await host.load('threads', wasmUrl);
   const glue = await import('./threads/fast_winding.js');
-  await glue.default({ module_or_path: module, memory });
-  nameCrashChannel(channel);
+  await glue.default({ module_or_path: module!, memory });
+  usePoolStarter(poolStarter(channel));
   await glue.initThreadPool(threads);
   const engine = new Engine(glue as unknown as Glue);
   const cancel = { buffer: memory.buffer as unknown as SharedArrayBuffer, address: engine.job.address() };
@@ -43,7 +44,7 @@ async function startThreads(host: Host, { threads, wasmUrl, channel, reason }: S
 async function startSingle(host: Host, { wasmUrl }: StartMessage, reason: string): Promise<[Engine, Ready]> {
   const module = await host.load('single', wasmUrl);
   const glue = await import('./single/fast_winding.js');
-  await glue.default({ module_or_path: module });
+  await glue.default({ module_or_path: module! });
   const engine = new Engine(glue);
   return [engine, { type: 'ready', threads: 0, reason, version: engine.version, cancel: undefined }];
 }
@@ -87,10 +88,9 @@ export function serve(host: Host): (message: ToWorker) => void {
       engine = started;
       host.post(ready, []);
     } catch (error) {
-      if (error instanceof WebAssembly.CompileError) {
-        const message = `this browser cannot run the engine: ${error.message}`;
-        fail(undefined, { code: 'Unsupported', message, details: {} });
-      } else fail(undefined, error);
+      const why = error instanceof Error ? error.message : String(error);
+      const code = error instanceof WebAssembly.CompileError ? 'Unsupported' : 'Crashed';
+      fail(undefined, { code, message: `the engine could not start: ${why}`, details: {} });
     }
   };
   return (message) => {

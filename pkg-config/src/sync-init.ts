@@ -65,9 +65,12 @@ class Direct implements Caller {
 
 export type SyncInitOptions = Pick<InitOptions, 'wasmUrl'>;
 
-/** `init` for a platform that loads the WebAssembly of the single-threaded build with `load`. */
+/**
+ * `init` for a platform that loads the WebAssembly of the single-threaded build with `load`, or leaves it to
+ * wasm-bindgen's code, which finds it beside itself.
+ */
 export function syncInitFor(
-  load: (wasmUrl: string | URL | undefined) => Promise<WebAssembly.Module>,
+  load: (wasmUrl: string | URL | undefined) => Promise<WebAssembly.Module | undefined>,
 ): (options?: SyncInitOptions) => Promise<FastWinding> {
   let engine: Promise<FastWinding> | undefined;
   let direct: Direct | undefined;
@@ -78,7 +81,7 @@ export function syncInitFor(
     if (!hasSimd()) throw new WindingError('Unsupported', 'this machine has no WebAssembly SIMD, which the engine needs');
     const glue = await import('./single/fast_winding.js');
     if (isLoaded) glue.__wbg_reset_state();
-    else await glue.default({ module_or_path: await load(wasmUrl) });
+    else await glue.default({ module_or_path: (await load(wasmUrl))! });
     isLoaded = true;
     direct = new Direct(new Engine(glue));
     return facade(direct) as FastWinding;

@@ -1,5 +1,5 @@
 // The two WebAssembly builds, from one source: `threads` (shared memory, atomics, SIMD) and `single` (SIMD).
-import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { npmTool } from './npm.mjs';
 import { fingerprint, onceFor } from './inputs.mjs';
@@ -45,21 +45,23 @@ export function wasmOutput(variant) {
   return join(wasmTarget(VARIANTS[variant].target), `out-${variant}`);
 }
 
+/** Replaces the one place of `file` that `pattern` describes. */
+function replaceOnce(file, pattern, replacement) {
+  const before = readFileSync(file, 'utf8');
+  if (before.split(pattern).length !== 2) throw new StepFailed(`wasm-bindgen's ${file} is not as expected: ${pattern}`);
+  writeFileSync(file, before.replace(pattern, replacement));
+}
+
 /**
- * The thread pool's JavaScript is ours (src/pool.ts): the one that wasm-bindgen-rayon generates imports a folder,
- * which only some bundlers resolve, and lets a trap in a pool worker go unheard.
+ * The thread pool's JavaScript is ours (src/pool.ts): the one that wasm-bindgen-rayon brings imports a folder, which only
+ * some bundlers resolve, and lets a trap in a pool worker go unheard. Where the WebAssembly lies is said by
+ * src/threads-wasm.ts alone: if the workers of the pool named it too, webpack would split it off and fail to load it.
  */
 function replacePoolHelpers(folder) {
-  const snippets = join(folder, 'snippets');
-  const names = existsSync(snippets) ? readdirSync(snippets).filter((n) => n.startsWith('wasm-bindgen-rayon-')) : [];
   const glue = join(folder, 'fast_winding.js');
-  const before = readFileSync(glue, 'utf8');
-  const after = before.replace(/(['"])\.\/snippets\/wasm-bindgen-rayon-[^'"]+\1/, "'../pool.js'");
-  if (names.length !== 1 || before === after) {
-    throw new StepFailed(`wasm-bindgen's output in ${folder} does not import the helper of wasm-bindgen-rayon as expected`);
-  }
-  writeFileSync(glue, after);
-  rmSync(snippets, { recursive: true });
+  replaceOnce(glue, /'\.\/snippets\/wasm-bindgen-rayon-[^']+'/, "'../pool.js'");
+  replaceOnce(glue, /new URL\('fast_winding_bg\.wasm', import\.meta\.url\)/, "'fast_winding_bg.wasm'");
+  rmSync(join(folder, 'snippets'), { recursive: true });
 }
 
 /** The least size of the shared memory, in pages of 64 KiB, for the client, which makes that memory itself. */

@@ -1,0 +1,59 @@
+// Starts the workers of the thread pool.
+import type { PoolStarter } from './pool.js';
+
+export interface PoolMessage {
+  type: 'fast-winding-pool-start';
+  module: WebAssembly.Module;
+  memory: WebAssembly.Memory;
+  receiver: number;
+  channel: string;
+}
+
+/** Where this module lies when nothing has bundled it. */
+const unbundled: string = import.meta.url;
+
+function newWorker(): Worker {
+  try {
+    return new Worker(new URL('./pool-worker.js', import.meta.url), { type: 'module' });
+  } catch {
+    // From another origin, such as a CDN, only a script of this one may start a worker: one that imports the other.
+    // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
+    const url = new URL('./pool-worker.js', unbundled);
+    const script = new Blob([`import ${JSON.stringify(url.href)};`], { type: 'text/javascript' });
+    return new Worker(URL.createObjectURL(script), { type: 'module' });
+  }
+}
+
+/** Resolves when `worker` has joined the pool. */
+function joined(worker: Worker, message: PoolMessage): Promise<void> {
+  return new Promise((resolve, reject) => {
+    worker.addEventListener('message', ({ data }) => {
+      if (data === 'fast-winding-pool-listening') worker.postMessage(message);
+      else if (data === 'fast-winding-pool-ready') resolve();
+      else if (data?.error) reject(new Error(data.error));
+    });
+    worker.addEventListener('error', (event) => {
+      reject(new Error(event.message || 'a worker of the thread pool could not be loaded'));
+    });
+  });
+}
+
+/**
+ * Starts a worker for each thread, then builds the pool. `channel` names the BroadcastChannel on which a worker says that
+ * it trapped: the engine, blocked, could not hear it.
+ */
+export function poolStarter(channel: string): PoolStarter {
+  /** Kept so that no browser collects workers which only share memory. */
+  const workers: Worker[] = [];
+  return async (module, memory, builder) => {
+    const message: PoolMessage = { type: 'fast-winding-pool-start', module, memory, receiver: builder.receiver(), channel };
+    try {
+      for (let thread = 0; thread < builder.numThreads(); thread++) workers.push(newWorker());
+      await Promise.all(workers.map((worker) => joined(worker, message)));
+    } catch (error) {
+      workers.forEach((worker) => worker.terminate());
+      throw error;
+    }
+    builder.build();
+  };
+}
