@@ -60,7 +60,7 @@ pub struct FieldReport {
     pub bytes: usize,
 }
 
-/// Why a lattice of values could not be made.
+/// Why values could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FieldError {
     #[error(transparent)]
@@ -187,15 +187,15 @@ impl WindingField {
     /// Winding numbers at `points`, in their order.
     ///
     /// # Errors
-    /// If and only if `monitor` cancels.
+    /// If and only if `monitor` cancels or the values do not fit in memory.
     pub fn evaluate(
         &self,
         points: &[Vec3],
         accuracy: Accuracy,
         monitor: &dyn Monitor,
-    ) -> Result<Vec<f64>, Cancelled> {
+    ) -> Result<Vec<f64>, FieldError> {
         let value = |i: usize, scratch: &mut Scratch| self.at_with(points[i], accuracy, scratch);
-        let mut values = vec![0.0; points.len()];
+        let mut values = zeroed(points.len())?;
         fill_in_blocks(&mut values, value, "winding numbers", monitor)?;
         Ok(values)
     }
@@ -222,9 +222,9 @@ impl WindingField {
     /// Whether w ≥ 1/2 at each of `points`.
     ///
     /// # Errors
-    /// If and only if `monitor` cancels.
-    pub fn contains(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
-        let mut inside = vec![false; points.len()];
+    /// If and only if `monitor` cancels or the answers do not fit in memory.
+    pub fn contains(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<bool>, FieldError> {
+        let mut inside = zeroed(points.len())?;
         let value = |i: usize, scratch: &mut Scratch| self.exceeds(points[i], 0.5, scratch);
         fill_in_blocks(&mut inside, value, "inside test", monitor)?;
         Ok(inside)
