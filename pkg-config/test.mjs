@@ -1,7 +1,7 @@
 // Runs every test of the project and shows each runner's closing lines; stops at the first step that fails, with its output.
 import { readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { assemble } from './tools/assemble.mjs';
+import { assemble, requireBudgets } from './tools/assemble.mjs';
 import { browser } from './tools/browser.mjs';
 import { npmInstall } from './tools/npm.mjs';
 import { root, www } from './tools/paths.mjs';
@@ -45,7 +45,7 @@ await program(async () => {
   await step('rustfmt', () => cargo('fmt', '--check'));
   await step('clippy', () => cargo('clippy', '--all-targets', '--', '-D', 'warnings'));
   await step('native tests and doc tests', () => cargo('test', '--no-fail-fast'));
-  await step('npm package', () => assemble().then(() => ''));
+  await step('npm package', () => assemble().then(() => requireBudgets()));
   const found = await browser();
   await step('WebAssembly tests in headless Chromium, two threads', () => wasmTests(found));
   await step('package tests', async () => {

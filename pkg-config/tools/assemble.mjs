@@ -22,15 +22,24 @@ function copyGlue(variant, dist) {
   }
 }
 
+const wasmOf = (variant) => readFileSync(join(pkg, 'dist', variant, 'fast_winding_bg.wasm'));
+
 function reportSizes() {
   console.log('  build      raw KiB   gzip KiB   brotli KiB   budget');
   for (const variant of VARIANTS) {
-    const wasm = readFileSync(join(pkg, 'dist', variant, 'fast_winding_bg.wasm'));
+    const wasm = wasmOf(variant);
     const sizes = [wasm, gzipSync(wasm, { level: 9 }), brotliCompressSync(wasm)].map((data) => data.length / 1024);
     const [raw, gzip, brotli] = sizes.map((size) => size.toFixed(0));
     console.log(`  ${variant.padEnd(8)}${raw.padStart(10)}${gzip.padStart(11)}${brotli.padStart(13)}${String(BUDGETS[variant]).padStart(9)}`);
-    if (sizes[2] > BUDGETS[variant]) {
-      throw new StepFailed(`the ${variant} build weighs ${brotli} KiB after brotli: at most ${BUDGETS[variant]} are allowed`);
+  }
+}
+
+/** Fails when a build is too large: a matter for the tests, not for somebody who wants to see the page. */
+export function requireBudgets() {
+  for (const variant of VARIANTS) {
+    const size = brotliCompressSync(wasmOf(variant)).length / 1024;
+    if (size > BUDGETS[variant]) {
+      throw new StepFailed(`the ${variant} build weighs ${size.toFixed(1)} KiB after brotli: at most ${BUDGETS[variant]} are allowed`);
     }
   }
 }

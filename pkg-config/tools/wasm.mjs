@@ -8,8 +8,11 @@ import { StepFailed, run, say } from './run.mjs';
 import { bindgenTools, wasmEnvironment, wasmToolchain } from './rust.mjs';
 
 const RUST_INPUTS = ['Cargo.toml', 'Cargo.lock', 'src', 'pkg-config/tools'];
-/** A panic's place in the source would cost a tenth of the download; its message stays. */
-const COMMON = '-C panic=unwind -Z location-detail=none';
+/**
+ * A panic's place in the source would cost a tenth of the download; its message stays. Less inlining than LLVM's 225 saves
+ * another twentieth; the kernels, which matter for speed, ask for theirs in the source.
+ */
+const COMMON = '-C panic=unwind -Z location-detail=none -C llvm-args=-inline-threshold=60';
 const SIMD = `${COMMON} -C target-feature=+bulk-memory,+mutable-globals,+simd128`;
 const THREADS = [
   `${COMMON} -C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128`,
