@@ -1,4 +1,4 @@
-// The Rust tool chain for WebAssembly: a nightly of rustup with rust-src, or Debian's rustc-web with rust-web-src.
+// The Rust tool chain for WebAssembly: Debian's rustc-web with rust-web-src, or a nightly of rustup with rust-src.
 // Both rebuild the standard library (-Zbuild-std), for threads need one compiled with atomics.
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -71,11 +71,12 @@ export function requireCargo() {
 /** Finds or installs a compiler that can rebuild std for wasm32: 'rustup' or 'debian'. */
 export async function wasmToolchain() {
   requireCargo();
-  const ready = () => (nightlyIsComplete() ? 'rustup' : debianIsComplete() ? 'debian' : undefined);
-  if (ready()) return ready();
-  if (which('rustup')) await installWithRustup();
+  // Debian's first: one version that is known to work, where a nightly is a new one every day.
+  const ready = () => (debianIsComplete() ? 'debian' : nightlyIsComplete() ? 'rustup' : undefined);
   if (ready()) return ready();
   await installFromDebian();
+  if (ready()) return ready();
+  if (which('rustup')) await installWithRustup();
   if (ready()) return ready();
   throw new StepFailed(
     'no Rust that can build WebAssembly with threads. Either\n' +

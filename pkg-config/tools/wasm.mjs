@@ -20,8 +20,11 @@ const THREADS = [
   ...['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__heap_base'].map((s) => `-C link-arg=--export=${s}`),
 ].join(' ');
 
-/** With ssa-nomerge (binaryen 132) the threads build hangs for ever when its pool is made; no other pass of -O3 does that. */
-const OPTIMISATION = ['-O3', '--skip-pass=ssa-nomerge'];
+/**
+ * With ssa-nomerge (binaryen 132) the threads build hangs for ever when its pool is made; no other pass of -O3 does that.
+ * Without gc: newer compilers announce it, and Node 20 does not know the types that wasm-opt would then use.
+ */
+const OPTIMISATION = ['-O3', '--skip-pass=ssa-nomerge', '--disable-gc'];
 
 /** Each build by name: its flags, the target directory it shares, and features of the crate. */
 const VARIANTS = {
