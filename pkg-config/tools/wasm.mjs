@@ -10,9 +10,11 @@ import { bindgenTools, wasmEnvironment, wasmToolchain } from './rust.mjs';
 const RUST_INPUTS = ['Cargo.toml', 'Cargo.lock', 'src', 'pkg-config/tools'];
 /**
  * A panic's place in the source would cost a tenth of the download; its message stays. Less inlining than LLVM's 225 saves
- * another twentieth; the kernels, which matter for speed, ask for theirs in the source.
+ * another twentieth; the kernels, which matter for speed, ask for theirs in the source. Newer compilers unwind by exnref,
+ * which Node 20 does not know: the older instructions run everywhere.
  */
-const COMMON = '-C panic=unwind -Z location-detail=none -C llvm-args=-inline-threshold=60';
+const LLVM = ['-inline-threshold=60', '-wasm-use-legacy-eh=true'].map((option) => `-C llvm-args=${option}`).join(' ');
+const COMMON = `-C panic=unwind -Z location-detail=none ${LLVM}`;
 const SIMD = `${COMMON} -C target-feature=+bulk-memory,+mutable-globals,+simd128`;
 const THREADS = [
   `${COMMON} -C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128`,
@@ -20,11 +22,8 @@ const THREADS = [
   ...['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base', '__heap_base'].map((s) => `-C link-arg=--export=${s}`),
 ].join(' ');
 
-/**
- * With ssa-nomerge (binaryen 132) the threads build hangs for ever when its pool is made; no other pass of -O3 does that.
- * Without gc: newer compilers announce it, and Node 20 does not know the types that wasm-opt would then use.
- */
-const OPTIMISATION = ['-O3', '--skip-pass=ssa-nomerge', '--disable-gc'];
+/** With ssa-nomerge (binaryen 132) the threads build hangs for ever when its pool is made; no other pass of -O3 does that. */
+const OPTIMISATION = ['-O3', '--skip-pass=ssa-nomerge'];
 
 /** Each build by name: its flags, the target directory it shares, and features of the crate. */
 const VARIANTS = {
