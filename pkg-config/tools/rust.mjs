@@ -7,6 +7,8 @@ import { StepFailed, output, run, say, which } from './run.mjs';
 
 const DEBIAN_RUSTC = '/usr/bin/rustc';
 const DEBIAN_SOURCE = '/usr/lib/rustlib/src/rust/library';
+/** Pinned (Rust 1.97): with 1.101 of 2026-10-29 the threads crash now and then, "memory access out of bounds". */
+const NIGHTLY = 'nightly-2026-05-20';
 const RUSTUP_TIME_LIMIT = 5 * 60_000;
 
 function sysroot(toolchain) {
@@ -18,7 +20,7 @@ function host() {
 }
 
 function nightlyIsComplete() {
-  const folder = sysroot('nightly');
+  const folder = sysroot(NIGHTLY);
   return folder !== undefined && existsSync(join(folder, 'lib/rustlib/src/rust/library/Cargo.lock'));
 }
 
@@ -36,8 +38,8 @@ function debianIsComplete() {
 }
 
 async function installWithRustup() {
-  say('installing a Rust nightly with its source: rustup toolchain install nightly');
-  const args = ['toolchain', 'install', 'nightly', '--profile', 'minimal', '--no-self-update'];
+  say(`installing a Rust nightly with its source: rustup toolchain install ${NIGHTLY}`);
+  const args = ['toolchain', 'install', NIGHTLY, '--profile', 'minimal', '--no-self-update'];
   args.push('--component', 'rust-src', '--target', 'wasm32-unknown-unknown');
   await run('rustup', args, { timeout: RUSTUP_TIME_LIMIT, quiet: true }).catch(() => {
     say('rustup could not fetch it');
@@ -71,7 +73,6 @@ export function requireCargo() {
 /** Finds or installs a compiler that can rebuild std for wasm32: 'rustup' or 'debian'. */
 export async function wasmToolchain() {
   requireCargo();
-  // Debian's first: one version that is known to work, where a nightly is a new one every day.
   const ready = () => (debianIsComplete() ? 'debian' : nightlyIsComplete() ? 'rustup' : undefined);
   if (ready()) return ready();
   await installFromDebian();
@@ -80,7 +81,7 @@ export async function wasmToolchain() {
   if (ready()) return ready();
   throw new StepFailed(
     'no Rust that can build WebAssembly with threads. Either\n' +
-      '    rustup toolchain install nightly --component rust-src --target wasm32-unknown-unknown\n' +
+      `    rustup toolchain install ${NIGHTLY} --component rust-src --target wasm32-unknown-unknown\n` +
       'or, on Debian,\n' +
       '    apt-get update && apt-get install -y --no-install-recommends rustc-web rust-web-src',
   );
@@ -94,8 +95,9 @@ export function wasmEnvironment(toolchain) {
     CARGO_PROFILE_RELEASE_LTO: 'fat',
     CARGO_PROFILE_RELEASE_CODEGEN_UNITS: '1',
   };
-  if (sysroot('nightly')) environment.RUSTUP_TOOLCHAIN = 'nightly';
+  if (toolchain === 'rustup') environment.RUSTUP_TOOLCHAIN = NIGHTLY;
   if (toolchain === 'debian') {
+    if (sysroot('nightly')) environment.RUSTUP_TOOLCHAIN = 'nightly';
     const linkerHome = sysroot('nightly') ?? output('rustc', ['--print', 'sysroot']);
     environment.RUSTC = DEBIAN_RUSTC;
     environment.RUSTDOC = '/usr/bin/rustdoc';
