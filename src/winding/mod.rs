@@ -1,9 +1,15 @@
 //! The winding field of a soup or a cloud: one question, *how many times is this point inside?*
 //!
 //! `exact` is the definition and the oracle; `field` builds a tree once and answers fast (Barill et al. 2018).
+mod buckets;
+mod chain;
+mod closure;
+mod curtain;
 mod dipoles;
 mod exact;
+mod facets;
 mod field;
+mod scan;
 mod triangles;
 
 pub use crate::treecode::{Order, Scratch};
