@@ -7,6 +7,7 @@ use super::buckets::Buckets;
 use super::facets::{Facets, Role};
 use crate::data::Lattice;
 use crate::math::{Sign, Vec3, covers, normal_signs, orient_yz, side_of_plane, tie_break, touches};
+use std::ops::Range;
 
 /// Planes of a slab: eight, so that the bits of its samples fill whole bytes.
 pub const SLAB_PLANES: usize = 8;
@@ -50,7 +51,7 @@ impl Axis {
 
     /// Samples that may lie between two coordinates: all that do, and perhaps one more at each end.
     #[inline]
-    fn range(&self, low: f64, high: f64) -> std::ops::Range<usize> {
+    fn range(&self, low: f64, high: f64) -> Range<usize> {
         if self.spacing <= 0.0 {
             return if low <= self.origin && self.origin <= high { 0..self.count } else { 0..0 };
         }
@@ -67,15 +68,18 @@ fn extent(corners: &[Vec3; 3]) -> (Vec3, Vec3) {
 }
 
 impl<'a> Scan<'a> {
-    /// Distributes the triangles that cross rows of the lattice; the caps of the closure only if they are wanted.
-    pub fn new(facets: Facets<'a>, lattice: &'a Lattice, with_caps: bool) -> Scan<'a> {
+    /// Distributes those facets of a range of numbers that cross rows of the lattice.
+    pub fn new(facets: Facets<'a>, range: Range<usize>, lattice: &'a Lattice) -> Scan<'a> {
         let axis = |k: usize| Axis::new(lattice.origin[k], lattice.spacing[k], lattice.counts[k]);
         let axes = [axis(0), axis(1), axis(2)];
-        let count = if with_caps { facets.len() } else { facets.soup.len() };
-        let slabs = Buckets::collect(count, lattice.counts[2].div_ceil(SLAB_PLANES), |facet, put| {
+        let slabs = Buckets::collect(range.len(), lattice.counts[2].div_ceil(SLAB_PLANES), |place, put| {
+            let facet = range.start + place;
             let (low, high) = extent(&facets.corners(facet));
             let planes = axes[2].range(low.z, high.z);
-            if planes.is_empty() || axes[1].range(low.y, high.y).is_empty() || low.x > axes[0].at(axes[0].count) {
+            if planes.is_empty()
+                || axes[1].range(low.y, high.y).is_empty()
+                || low.x > axes[0].at(axes[0].count)
+            {
                 return;
             }
             for slab in planes.start / SLAB_PLANES..=(planes.end - 1) / SLAB_PLANES {
@@ -91,7 +95,7 @@ impl<'a> Scan<'a> {
     }
 
     /// Planes of a slab, by their index along z.
-    pub fn planes(&self, slab: usize) -> std::ops::Range<usize> {
+    pub fn planes(&self, slab: usize) -> Range<usize> {
         SLAB_PLANES * slab..(SLAB_PLANES * (slab + 1)).min(self.lattice.counts[2])
     }
 
@@ -121,7 +125,7 @@ impl<'a> Scan<'a> {
 /// The rows of a slab.
 struct Rows<'a> {
     axes: &'a [Axis; 3],
-    planes: std::ops::Range<usize>,
+    planes: Range<usize>,
     result: &'a mut Slab,
 }
 
@@ -169,11 +173,8 @@ impl Facet {
             let (s, t) = (self.corners[k], self.corners[(k + 1) % 3]);
             let (s, t) = if s.z <= t.z { (s, t) } else { (t, s) };
             if s.z <= z && z <= t.z {
-                let ends = if s.z == t.z {
-                    [s.y, t.y]
-                } else {
-                    [s.y + (z - s.z) / (t.z - s.z) * (t.y - s.y); 2]
-                };
+                let ends =
+                    if s.z == t.z { [s.y, t.y] } else { [s.y + (z - s.z) / (t.z - s.z) * (t.y - s.y); 2] };
                 low = low.min(ends[0]).min(ends[1]);
                 high = high.max(ends[0]).max(ends[1]);
             }
@@ -197,7 +198,7 @@ impl Rows<'_> {
         Vec3::new(self.axes[0].at(i), self.axes[1].at(j), self.axes[2].at(k))
     }
 
-    fn planes_of(&self, low: f64, high: f64) -> std::ops::Range<usize> {
+    fn planes_of(&self, low: f64, high: f64) -> Range<usize> {
         let all = self.axes[2].range(low, high);
         all.start.max(self.planes.start)..all.end.min(self.planes.end)
     }
@@ -252,25 +253,15 @@ impl Rows<'_> {
     }
 
     /// Marks the samples of a row that lie on the triangle; at most one of them lies on its plane.
-    fn mark_touching(
-        &mut self,
-        facet: &Facet,
-        doubtful: std::ops::Range<usize>,
-        j: usize,
-        k: usize,
-        is_inside: bool,
-    ) {
+    fn mark_touching(&mut self, facet: &Facet, doubtful: Range<usize>, j: usize, k: usize, is_inside: bool) {
         let first = first_beyond(facet, doubtful.clone(), |i| self.point(i, j, k));
         for i in [first.wrapping_sub(1), first] {
             if !doubtful.contains(&i) {
                 continue;
             }
             let q = self.point(i, j, k);
-            let is_on = if is_inside {
-                side_of_plane(q, facet.corners) == 0
-            } else {
-                touches(q, facet.corners)
-            };
+            let is_on =
+                if is_inside { side_of_plane(q, facet.corners) == 0 } else { touches(q, facet.corners) };
             if is_on {
                 let index = self.index(i, j, k);
                 self.result.on_surface.push(index as u32);
@@ -310,7 +301,7 @@ fn doubtful_start(axis: &Axis, x: f64) -> usize {
 }
 
 /// The first sample of a row that lies beyond the plane of a triangle; by bisection of those in doubt.
-fn first_beyond(facet: &Facet, doubtful: std::ops::Range<usize>, point: impl Fn(usize) -> Vec3) -> usize {
+fn first_beyond(facet: &Facet, doubtful: Range<usize>, point: impl Fn(usize) -> Vec3) -> usize {
     let (mut low, mut high) = (doubtful.start, doubtful.end);
     while low < high {
         let middle = (low + high) / 2;
@@ -341,7 +332,7 @@ mod tests {
 
     fn check(soup: &TriangleSoup, lattice: &Lattice) -> usize {
         let closure = Closure::of(soup);
-        let scan = Scan::new(Facets { soup, closure: &closure }, lattice, true);
+        let scan = Scan::new(Facets { soup, closure: &closure }, 0..soup.len() + closure.caps.len(), lattice);
         let mut slab = Slab::default();
         let mut touching = 0;
         for s in 0..scan.slabs() {
@@ -354,7 +345,10 @@ mod tests {
                 let is_on = (0..soup.len()).any(|t| touches(q, soup.corners(t)));
                 assert_eq!(is_on, slab.on_surface.contains(&(index as u32)), "{q}");
                 if !is_on {
-                    assert!((f64::from(*crossings) - winding_of_soup(soup, q)).abs() < 1e-12, "{q}: {crossings}");
+                    assert!(
+                        (f64::from(*crossings) - winding_of_soup(soup, q)).abs() < 1e-12,
+                        "{q}: {crossings}"
+                    );
                 }
             }
         }
@@ -390,7 +384,7 @@ mod tests {
         let closure = Closure::of(&soup);
         assert!(closure.is_empty());
         let lattice = Lattice::with_counts(soup.bounds(), [20, 20, 20]).unwrap();
-        let scan = Scan::new(Facets { soup: &soup, closure: &closure }, &lattice, true);
+        let scan = Scan::new(Facets { soup: &soup, closure: &closure }, 0..soup.len(), &lattice);
         let mut slab = Slab::default();
         for s in 0..scan.slabs() {
             scan.count(s, &mut slab);
