@@ -3,38 +3,55 @@
 //! The winding number of the caps is smooth away from them: an element of area dA at distance r changes it by at most
 //! 2 dA / 4πr³ per length. Over a box whose interval of fractions holds no tie, w ≥ threshold is a question to the integer
 //! part alone. That is a proof, not an estimate; what stays in doubt is summed exactly.
-use crate::math::{Vec3, area_vector, barycentre};
+use crate::math::{Vec3, area_vector, barycentre, distance_to_triangle, normal_signs};
 use std::f64::consts::PI;
 
 /// Rounding of an exactly summed fraction, with a margin.
 const ROUNDING: f64 = 1e-11;
 
-/// Balls around the caps, with their areas.
+/// Caps with balls around them.
 #[derive(Clone, Debug, Default)]
 pub struct CapBalls {
-    balls: Vec<(Vec3, f64, f64)>,
+    balls: Vec<Ball>,
 }
+
+#[derive(Clone, Debug)]
+struct Ball {
+    center: Vec3,
+    radius: f64,
+    area: f64,
+    cap: [Vec3; 3],
+}
+
+/// Caps nearer than this many of their radii are measured themselves: the balls of long ones reach far beyond them.
+const NEAR: f64 = 3.0;
 
 impl CapBalls {
     pub fn new(caps: &[[Vec3; 3]]) -> CapBalls {
         let ball = |cap: &[Vec3; 3]| {
             let center = barycentre(*cap);
             let radius = cap.iter().map(|p| p.distance(center)).fold(0.0, f64::max);
-            (center, radius, area_vector(*cap).length())
+            Ball { center, radius, area: area_vector(*cap).length(), cap: *cap }
         };
-        CapBalls { balls: caps.iter().map(ball).collect() }
+        // Those without area, as T-junctions have, contribute nothing anywhere.
+        let has_area = |cap: &&[Vec3; 3]| normal_signs(**cap) != [0; 3];
+        CapBalls { balls: caps.iter().filter(has_area).map(ball).collect() }
     }
 
     /// How much the winding number of the caps differs, at most, between `center` and a point within `radius` of it;
     /// infinite if a cap may reach that far.
     pub fn variation(&self, center: Vec3, radius: f64) -> f64 {
         let mut sum = 0.0;
-        for (middle, reach, area) in &self.balls {
-            let distance = middle.distance(center) - reach - radius;
+        for ball in &self.balls {
+            let to_center = ball.center.distance(center);
+            let mut distance = to_center - ball.radius - radius;
+            if to_center < NEAR * ball.radius + radius {
+                distance = distance_to_triangle(center, ball.cap) * (1.0 - 1e-9) - radius;
+            }
             if distance <= 1e-9 * radius {
                 return f64::INFINITY;
             }
-            sum += area / (distance * distance * distance);
+            sum += ball.area / (distance * distance * distance);
         }
         sum * radius / (2.0 * PI)
     }

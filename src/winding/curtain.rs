@@ -184,6 +184,28 @@ mod tests {
     }
 
     #[test]
+    fn a_square_rim_with_vertices_in_line_is_right() {
+        let corner = |k: usize| [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)][k % 4];
+        let rim: Vec<Vec3> = (0..24)
+            .map(|k| {
+                let ((y0, z0), (y1, z1), t) = (corner(k / 6), corner(k / 6 + 1), (k % 6) as f64 / 6.0);
+                Vec3::new(-1.0, y0 + t * (y1 - y0), z0 + t * (z1 - z0))
+            })
+            .collect();
+        let fan: Vec<[u32; 3]> = (1..23).map(|k| [0, k, k + 1]).collect();
+        let soup = TriangleSoup::new(rim.clone(), fan).unwrap();
+        let curtain = Curtain::new(vec![rim]);
+        for k in 0..21 * 21 {
+            for x in [-4.0, -1.25, -0.75, 1.25, 1e3] {
+                let q = Vec3::new(x, -1.5 + 0.125 * f64::from(k % 21), -1.5 + 0.125 * f64::from(k / 21));
+                let n: f64 = (0..soup.len()).map(|t| crossings(q, soup.corners(t))).sum();
+                let w = n + curtain.fraction(q);
+                assert!((w - winding_of_soup(&soup, q)).abs() < 1e-13, "{q}: {n} + {}", w - n);
+            }
+        }
+    }
+
+    #[test]
     fn queries_straight_under_a_vertex_or_an_edge_are_right() {
         let triangle = [Vec3::new(0.5, 0.0, 0.0), Vec3::new(0.25, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
         let soup = TriangleSoup::new(triangle.to_vec(), vec![[0, 1, 2]]).unwrap();

@@ -213,10 +213,13 @@ impl Rows<'_> {
         }
         let facet = Facet::new(corners, facing, role);
         for k in self.planes_of(facet.low.z, facet.high.z) {
-            let (low, high) = facet.span(self.axes[2].at(k));
+            let z = self.axes[2].at(k);
+            let (low, high) = facet.span(z);
+            // On its lowest or highest line a triangle may have an edge along all of the row.
+            let is_between = facet.low.z < z && z < facet.high.z;
             for j in self.axes[1].range(low - facet.y_error, high + facet.y_error) {
                 let y = self.axes[1].at(j);
-                let is_inside = low + facet.y_error < y && y < high - facet.y_error;
+                let is_inside = is_between && low + facet.y_error < y && y < high - facet.y_error;
                 self.cross(&facet, j, k, is_inside);
             }
         }

@@ -28,16 +28,22 @@ impl Fan {
         Fan { normal, sectors }
     }
 
-    /// Solid angle seen from q + δ, δ along `direction`; `side` is the side of the plane on which δ counts as lying when it
-    /// lies in it.
-    fn solid_angle(&self, direction: Vec3, side: Sign) -> f64 {
+    /// Solid angle seen from q + δ, δ along `direction` and, infinitely less, along the perpendicular `then`; `side` is the
+    /// side of the plane on which δ counts as lying when both lie in it.
+    fn solid_angle(&self, direction: Vec3, then: Vec3, side: Sign) -> f64 {
         let height = direction.dot(self.normal);
         let is_above = if height.abs() > FLAT { height > 0.0 } else { side > 0 };
+        let signed = |size: f64| if is_above { -size.abs() } else { size.abs() };
         let one = |[u, v]: &[Vec3; 2]| {
-            let numerator = (height * u.cross(*v).length()).abs();
-            let numerator = if is_above { -numerator } else { numerator };
+            // With −δ opposite to one end of the sector the spherical triangle is a lune, seen along its axis.
+            for (axis, other) in [(u, v), (v, u)] {
+                if direction.distance_squared(*axis) < FLAT {
+                    let across = *other - other.dot(*axis) * *axis;
+                    return 2.0 * libm::atan2(signed(then.dot(axis.cross(across))), -then.dot(across));
+                }
+            }
             let denominator = 1.0 - direction.dot(*u) + u.dot(*v) - direction.dot(*v);
-            2.0 * libm::atan2(numerator, denominator)
+            2.0 * libm::atan2(signed(height * u.cross(*v).length()), denominator)
         };
         self.sectors.iter().map(one).sum()
     }
@@ -45,8 +51,9 @@ impl Fan {
 
 /// What the triangles that q lies on add to w at q' (see [`crate::math`]): w there less this is the principal value at q.
 pub fn share_of_touching(q: Vec3, touching: &[[Vec3; 3]]) -> f64 {
-    let one =
-        |corners: &[Vec3; 3]| Fan::new(q, *corners).solid_angle(Vec3::Y, tie_break(*corners)) / (4.0 * PI);
+    let one = |corners: &[Vec3; 3]| {
+        Fan::new(q, *corners).solid_angle(Vec3::Y, Vec3::Z, tie_break(*corners)) / (4.0 * PI)
+    };
     touching.iter().map(one).sum()
 }
 
@@ -55,7 +62,7 @@ pub fn touches_inside(q: Vec3, touching: &[[Vec3; 3]], principal: f64, threshold
     let fans: Vec<Fan> = touching.iter().map(|corners| Fan::new(q, *corners)).collect();
     let value = |direction: Vec3, normal: Vec3| {
         let side = |fan: &Fan| if fan.normal.dot(normal) > 0.0 { 1 } else { -1 };
-        let sum: f64 = fans.iter().map(|fan| fan.solid_angle(direction, side(fan))).sum();
+        let sum: f64 = fans.iter().map(|fan| fan.solid_angle(direction, normal, side(fan))).sum();
         principal + sum / (4.0 * PI)
     };
     fans.iter().any(|fan| {
