@@ -51,7 +51,7 @@ fn check(soup: &TriangleSoup, queries: &[Vec3], tolerance: f64) {
     check_with(soup, queries, tolerance, |q| winding_of_soup(soup, q));
 }
 
-/// Compares values with an oracle, which off the surface may know better than the sum by the definition.
+/// Compares values with an oracle, which may know better than the sum by the definition.
 fn check_with(soup: &TriangleSoup, queries: &[Vec3], tolerance: f64, oracle: impl Fn(Vec3) -> f64) {
     let field = field(soup);
     let exact = field.evaluate(queries, Accuracy::EXACT, &Silent).unwrap();
@@ -59,7 +59,7 @@ fn check_with(soup: &TriangleSoup, queries: &[Vec3], tolerance: f64, oracle: imp
     let inside = field.contains(queries, &Silent).unwrap();
     for (k, q) in queries.iter().enumerate() {
         let is_on = (0..soup.len()).any(|t| touches(*q, soup.corners(t)));
-        let w = if is_on { winding_of_soup(soup, *q) } else { oracle(*q) };
+        let w = oracle(*q);
         assert!((exact[k] - w).abs() <= tolerance, "exact: {} instead of {w} at {q:?}", exact[k]);
         assert!((fast[k] - w).abs() <= 1e-3 + tolerance, "fast: {} instead of {w} at {q:?}", fast[k]);
         if is_on {
@@ -96,7 +96,10 @@ fn queries_on_and_next_to_vertices_edges_and_faces() {
         // Within 1e-9 of an edge the sum over all triangles has lost its last digits: the box is closed less its face.
         let face = [Vec3::new(-1.0, -1.0, -1.0), Vec3::new(-1.0, -1.0, 1.0), Vec3::new(-1.0, 1.0, 1.0)];
         let face = loose(&[face, [face[0], face[2], Vec3::new(-1.0, 1.0, -1.0)]]);
-        let is_in = |q: Vec3, half: f64| f64::from(u8::from(q.abs().max_element() < half));
+        let is_in = |q: Vec3, half: f64| {
+            let on = q.abs().to_array().iter().filter(|c| **c == half).count() as i32;
+            if q.abs().max_element() <= half { 0.5f64.powi(on) } else { 0.0 }
+        };
         let oracle = |q: Vec3| match soup.len() {
             12 => is_in(q, 1.0),
             24 => is_in(q, 1.0) - is_in(q, 0.5),

@@ -8,7 +8,7 @@
 //!
 //! Crossing and solid angle jump together where q passes under an edge: there the argument is near ±π, and its sign is
 //! that of the exact predicate which also decides the crossing.
-use crate::math::{Vec3, side_of_edge};
+use crate::math::{Vec3, normal_signs, side_of_edge};
 use std::f64::consts::TAU;
 use wide::{f64x4, i64x4};
 
@@ -46,9 +46,13 @@ impl Curtain {
         self.edges
     }
 
-    /// Directed boundary edges.
-    pub fn each_edge(&self) -> impl Iterator<Item = [Vec3; 2]> + '_ {
-        self.cycles.iter().flat_map(|c| (0..c.len()).map(move |k| [c[k], c[(k + 1) % c.len()]]))
+    /// Whether `q` lies on a boundary edge.
+    pub fn touches(&self, q: Vec3) -> bool {
+        let edges = self.cycles.iter().flat_map(|c| (0..c.len()).map(move |k| [c[k], c[(k + 1) % c.len()]]));
+        edges.into_iter().any(|[a, b]| {
+            let is_within = a.min(b).cmple(q).all() && q.cmple(a.max(b)).all();
+            is_within && normal_signs([a, b, q]) == [0; 3]
+        })
     }
 
     /// Σ (solid angles of the curtains) / 4π at four queries. Not defined on a boundary edge itself.

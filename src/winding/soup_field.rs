@@ -5,7 +5,7 @@ use super::curtain::{Curtain, LANES};
 use super::error_model::{COARSE_BETA, FINE_BETA, SOUP_ERROR};
 use super::exact::winding_of_soup;
 use super::facets::Facets;
-use super::locate::{Location, Locator};
+use super::locate::Locator;
 use super::pieces::Pieces;
 use super::surface_rule::{share_of_touching, touches_inside};
 use crate::bvh::WIDTH;
@@ -216,18 +216,18 @@ impl SoupField {
             if location.touching.is_empty() {
                 *value += f64::from(location.crossings);
             } else {
-                *value = self.principal(*q, &location);
+                *value = self.principal(*q, &location.touching);
             }
         }
     }
 
     /// The principal value at a point on the surface.
-    pub(super) fn principal(&self, q: Vec3, location: &Location) -> f64 {
-        if self.is_closed() {
-            f64::from(location.crossings) - share_of_touching(q, &self.corners(&location.touching))
-        } else {
-            winding_of_soup(&self.soup, q)
+    pub(super) fn principal(&self, q: Vec3, touching: &[u32]) -> f64 {
+        if !self.closure.loose.is_empty() || self.curtain.touches(q) {
+            return winding_of_soup(&self.soup, q);
         }
+        let crossings = self.index().locator.locate(self.facets(), q, false).crossings;
+        f64::from(crossings) + self.curtain.fraction(q) - share_of_touching(q, &self.corners(touching))
     }
 
     fn corners(&self, facets: &[u32]) -> Vec<[Vec3; 3]> {
@@ -237,13 +237,13 @@ impl SoupField {
     /// Whether a point on the surface counts as inside: a region that touches it is.
     pub(super) fn is_inside_on_surface(&self, q: Vec3, threshold: f64) -> bool {
         let location = self.index().locator.locate(self.facets(), q, true);
-        let principal = self.principal(q, &location);
+        let principal = self.principal(q, &location.touching);
         touches_inside(q, &self.corners(&location.touching), principal, threshold)
     }
 
     /// The principal value at a sample on the surface.
     pub(super) fn principal_at(&self, q: Vec3) -> f64 {
-        self.principal(q, &self.index().locator.locate(self.facets(), q, true))
+        self.principal(q, &self.index().locator.locate(self.facets(), q, true).touching)
     }
 
     /// Whether w ≥ `threshold` at up to [`BLOCK`] points: by crossings alone where the fraction does not matter, then by
@@ -296,7 +296,7 @@ impl SoupField {
         }
         let location = index.locator.locate(self.facets(), q, true);
         if !location.touching.is_empty() {
-            let principal = self.principal(q, &location);
+            let principal = self.principal(q, &location.touching);
             return Some(touches_inside(q, &self.corners(&location.touching), principal, threshold));
         }
         least.map(|least| location.crossings >= least)

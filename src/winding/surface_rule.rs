@@ -3,7 +3,7 @@
 //! Close to a point q of the surface the triangles that it lies on look like sectors of planes with their apex in q. Seen
 //! from q + δ with an infinitely small δ, a sector between the directions u and v spans the spherical triangle
 //! (−δ, u, v). So w(q + δ) = (principal value) + Σ (those solid angles) / 4π: constant over each region between sectors.
-use crate::math::{Sign, Vec3, tie_break};
+use crate::math::{Sign, Vec3, normal_signs, tie_break};
 use std::f64::consts::{PI, TAU};
 
 /// Directions closer to a plane than this count as in it.
@@ -11,9 +11,20 @@ const FLAT: f64 = 1e-12;
 /// What rounding may take from a winding number of exactly the threshold.
 const ROUNDING: f64 = 1e-12;
 
-/// A triangle and its sectors at a point on it: pairs of directions from the point, in the triangle's turn.
+/// What a triangle looks like from close to a point on it.
+enum Sight {
+    Plane,
+    /// The unit vector in the plane, away from the edge.
+    HalfPlane(Vec3),
+    /// Unit directions of the two sides, in the triangle's turn.
+    Corner(Vec3, Vec3),
+}
+
+/// A triangle at a point on it.
 struct Fan {
     normal: Vec3,
+    sight: Sight,
+    /// Pairs of unit directions to the triangle's corners that span it, for each side on which the point does not lie.
     sectors: Vec<[Vec3; 2]>,
 }
 
@@ -21,11 +32,19 @@ impl Fan {
     fn new(q: Vec3, corners: [Vec3; 3]) -> Fan {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a).normalize_or_zero();
+        let is_beside = |k: &usize| normal_signs([corners[*k], corners[(*k + 1) % 3], q]) != [0; 3];
+        let sides: Vec<usize> = (0..3).filter(is_beside).collect();
         let rim = corners.map(|p| (p - q).normalize_or_zero());
-        let sectors = (0..3).map(|k| [rim[k], rim[(k + 1) % 3]]);
-        // Empty where q lies on that edge or vertex.
-        let sectors = sectors.filter(|[u, v]| u.cross(*v).dot(normal) > FLAT).collect();
-        Fan { normal, sectors }
+        let sight = match sides[..] {
+            [side] => Sight::Corner(rim[side], rim[(side + 1) % 3]),
+            [first, second] => {
+                let edge = 3 - first - second;
+                let along = corners[(edge + 1) % 3] - corners[edge];
+                Sight::HalfPlane(normal.cross(along).normalize_or_zero())
+            }
+            _ => Sight::Plane,
+        };
+        Fan { normal, sight, sectors: sides.into_iter().map(|k| [rim[k], rim[(k + 1) % 3]]).collect() }
     }
 
     /// Solid angle seen from q + δ, δ along `direction` and, infinitely less, along the perpendicular `then`; `side` is the
@@ -34,18 +53,30 @@ impl Fan {
         let height = direction.dot(self.normal);
         let is_above = if height.abs() > FLAT { height > 0.0 } else { side > 0 };
         let signed = |size: f64| if is_above { -size.abs() } else { size.abs() };
-        let one = |[u, v]: &[Vec3; 2]| {
-            // With −δ opposite to one end of the sector the spherical triangle is a lune, seen along its axis.
-            for (axis, other) in [(u, v), (v, u)] {
-                if direction.distance_squared(*axis) < FLAT {
-                    let across = *other - other.dot(*axis) * *axis;
-                    return 2.0 * libm::atan2(signed(then.dot(axis.cross(across))), -then.dot(across));
-                }
+        match self.sight {
+            Sight::Plane => signed(TAU),
+            Sight::HalfPlane(inward) => {
+                let across = direction.dot(inward);
+                // δ along the edge: what follows it counts.
+                let (height, across) = if height.abs().max(across.abs()) > FLAT {
+                    (height, across)
+                } else {
+                    (then.dot(self.normal), then.dot(inward))
+                };
+                2.0 * libm::atan2(signed(height), -across)
             }
-            let denominator = 1.0 - direction.dot(*u) + u.dot(*v) - direction.dot(*v);
-            2.0 * libm::atan2(signed(height * u.cross(*v).length()), denominator)
-        };
-        self.sectors.iter().map(one).sum()
+            Sight::Corner(u, v) => {
+                // With −δ opposite to one end of the sector the spherical triangle is a lune, seen along its axis.
+                for (axis, other) in [(u, v), (v, u)] {
+                    if direction.distance_squared(axis) < FLAT {
+                        let across = other - other.dot(axis) * axis;
+                        return 2.0 * libm::atan2(signed(then.dot(axis.cross(across))), -then.dot(across));
+                    }
+                }
+                let denominator = 1.0 - direction.dot(u) + u.dot(v) - direction.dot(v);
+                2.0 * libm::atan2(signed(height * u.cross(v).length()), denominator)
+            }
+        }
     }
 }
 
