@@ -15,7 +15,7 @@ use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent};
 use fast_winding::io::{self, Geometry};
 use fast_winding::math::Vec3;
 use fast_winding::solid::{VoxelConfig, voxelize};
-use fast_winding::winding::{Accuracy, FieldConfig, WindingField, winding};
+use fast_winding::winding::{Accuracy, FieldConfig, WindingField, winding_of_cloud, winding_of_soup};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::time::Instant;
@@ -26,57 +26,54 @@ fn main() {
     let options = Options::parse(words);
     let shape = read_shape(&model);
     let answers = match job.as_str() {
-        "build" => measure(&options, &shape, |_| ()).1.map(|()| Vec::new()),
+        "build" => measure(&options, &shape, |_| Vec::new()),
         "voxels" => classify_lattice(&options, &shape),
         "values" => evaluate(&options, &shape),
         "contains" => classify_points(&options, &shape),
-        "oracle" => {
-            Some(bytes_of(&options.points().par_iter().map(|q| winding(&shape, *q)).collect::<Vec<_>>()))
-        }
+        "oracle" => bytes_of(&sum_directly(&options.points(), &shape)),
         _ => panic!("unknown job '{job}': voxels, values, contains, build and oracle are known"),
     };
-    if let (Some(path), Some(answers)) = (options.text("output"), answers) {
+    if let Some(path) = options.text("output") {
         std::fs::write(path, answers).expect("the answers can be written");
     }
 }
 
-fn classify_lattice(options: &Options, shape: &Shape) -> Option<Vec<u8>> {
+fn classify_lattice(options: &Options, shape: &Shape) -> Vec<u8> {
     let lattice = options.lattice(shape).expect("--counts is given");
     let config = VoxelConfig::default();
-    let (_, voxels) = measure(options, shape, |field| {
-        voxelize(field, &lattice, &config, &Silent).expect("nothing cancels")
-    });
-    voxels.map(|voxels| voxels.to_bytes().expect("the bytes fit"))
+    let ask = |field: &WindingField| voxelize(field, &lattice, &config, &Silent).expect("nothing cancels");
+    measure(options, shape, ask).to_bytes().expect("the bytes fit")
 }
 
-fn evaluate(options: &Options, shape: &Shape) -> Option<Vec<u8>> {
+fn evaluate(options: &Options, shape: &Shape) -> Vec<u8> {
     let accuracy = options.accuracy(shape);
-    let values = match options.lattice(shape) {
-        Some(lattice) => {
-            let on_lattice = |field: &WindingField| {
-                field.evaluate_lattice(&lattice, accuracy, &Silent).expect("nothing cancels")
-            };
-            measure(options, shape, on_lattice).1.map(|grid| grid.values)
-        }
-        None => {
-            let points = options.points();
-            let at_points =
-                |field: &WindingField| field.evaluate(&points, accuracy, &Silent).expect("nothing cancels");
-            measure(options, shape, at_points).1
-        }
-    };
-    values.map(|values| bytes_of(&values))
-}
-
-fn classify_points(options: &Options, shape: &Shape) -> Option<Vec<u8>> {
+    if let Some(lattice) = options.lattice(shape) {
+        let ask = |field: &WindingField| {
+            field.evaluate_lattice(&lattice, accuracy, &Silent).expect("nothing cancels")
+        };
+        return bytes_of(&measure(options, shape, ask).values);
+    }
     let points = options.points();
-    let (_, inside) =
-        measure(options, shape, |field| field.contains(&points, &Silent).expect("nothing cancels"));
-    inside.map(|inside| inside.into_iter().map(u8::from).collect())
+    let ask = |field: &WindingField| field.evaluate(&points, accuracy, &Silent).expect("nothing cancels");
+    bytes_of(&measure(options, shape, ask))
 }
 
-/// Builds the field and asks it, again and again; prints the medians. Returns the number of repeats and the last answers.
-fn measure<T>(options: &Options, shape: &Shape, ask: impl Fn(&WindingField) -> T) -> (usize, Option<T>) {
+fn classify_points(options: &Options, shape: &Shape) -> Vec<u8> {
+    let points = options.points();
+    let ask = |field: &WindingField| field.contains(&points, &Silent).expect("nothing cancels");
+    measure(options, shape, ask).into_iter().map(u8::from).collect()
+}
+
+fn sum_directly(points: &[Vec3], shape: &Shape) -> Vec<f64> {
+    let at = |q: &Vec3| match shape {
+        Shape::Soup(soup) => winding_of_soup(soup, *q),
+        Shape::Cloud(cloud) => winding_of_cloud(cloud, *q),
+    };
+    points.par_iter().map(at).collect()
+}
+
+/// Builds the field and asks it, again and again; prints the medians. Returns the last answers.
+fn measure<T>(options: &Options, shape: &Shape, ask: impl Fn(&WindingField) -> T) -> T {
     let before = Memory::reset();
     let mut field = WindingField::new(shape.clone(), FieldConfig::default());
     let after = Memory::now();
@@ -105,7 +102,7 @@ fn measure<T>(options: &Options, shape: &Shape, ask: impl Fn(&WindingField) -> T
     }
     println!(
         "{{\"elements\": {}, \"build\": {:e}, \"evaluation\": {:e}, \"total\": {:e}, \"repeats\": {}, \"bytes\": {}, \
-         \"resident\": {}, \"peak\": {}, \"method\": {:?}}}",
+         \"resident\": {}, \"peak\": {}, \"process\": {}, \"method\": {:?}}}",
         shape.len(),
         median(&mut builds),
         median(&mut evaluations),
@@ -114,9 +111,10 @@ fn measure<T>(options: &Options, shape: &Shape, ask: impl Fn(&WindingField) -> T
         field.report().bytes,
         after.resident.saturating_sub(before.resident),
         after.peak.saturating_sub(before.resident),
+        after.peak,
         field.report().method,
     );
-    (totals.len(), Some(answers))
+    answers
 }
 
 /// Words of the command line: `--name value`, or `--name` alone.

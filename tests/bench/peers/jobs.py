@@ -55,7 +55,10 @@ JOBS = [
         goals={(VOXELS, "gpytoolbox"): 40, (values(1e-5), "gpytoolbox"): 25, (values(0), "gpytoolbox"): 8},
         errors={values(1e-5): 1e-5, values(0): EXACT_ERROR},
     ),
-    Job("voxels, open, others", ["snowden", "teapot"], [VOXELS, values(1e-5), values(0)], ["gpytoolbox", "open3d"], counts=100),
+    Job(
+        "voxels, open, others", ["snowden", "teapot"], [VOXELS, values(1e-5), values(0)], ["gpytoolbox", "open3d"], counts=100,
+        errors={values(1e-5): 1e-5, values(0): EXACT_ERROR},
+    ),
     Job(
         "voxels, thin triangles", THIN, [VOXELS, values(0)], MESH_PEERS, counts=100, own=True,
         goals={(VOXELS, "gpytoolbox"): 400}, errors={values(0): EXACT_ERROR},

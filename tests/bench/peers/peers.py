@@ -145,7 +145,7 @@ def measure_build(build_once):
     before, _ = memory()
     seconds, built = timed(build_once)
     resident, peak = memory()
-    growth = {"resident": max(resident - before, 0), "peak": max(peak - before, 0)}
+    growth = {"resident": max(resident - before, 0), "peak": max(peak - before, 0), "process": peak}
     return seconds, built, growth
 
 

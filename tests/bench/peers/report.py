@@ -12,10 +12,10 @@ HEADS = (
     "our max error", "wrong theirs / ours", "checked", "skipped ties", "met",
 )
 BUILD_HEADS = (
-    "model", "triangles", "peer", "peer's time", "our time", "ratio", "goal", "peer: memory kept / peak",
-    "ours: kept / peak", "our field's bytes", "bytes a triangle", "kept ours / theirs", "met",
+    "model", "triangles", "peer", "peer's time", "our time", "ratio", "goal", "peer: memory kept / peak / whole process",
+    "ours: kept / peak / whole process", "our field's bytes", "bytes a triangle", "kept ours / theirs", "met",
 )
-KEYS = ("build", "evaluation", "total", "resident", "peak", "bytes")
+KEYS = ("build", "evaluation", "total", "resident", "peak", "process", "bytes")
 
 
 @dataclass
@@ -43,6 +43,10 @@ def seconds(time, stride=1):
 
 def megabytes(bytes_):
     return f"{bytes_ / 1e6:.1f}"
+
+
+def memory_cell(times):
+    return " / ".join(megabytes(times[key]) for key in ("resident", "peak", "process")) + " MB"
 
 
 def errors(outcome, truth):
@@ -122,7 +126,7 @@ def build_row(job, model, elements, mode, ours, peer, theirs):
     is_met = not reasons if goal else None
     return [
         model, f"{elements:,}", peer, seconds(theirs.times["build"]), seconds(ours.times["build"]), f"{ratio:.3g} ×",
-        goal_cell(goal), *(f"{megabytes(o.times['resident'])} / {megabytes(o.times['peak'])} MB" for o in (theirs, ours)),
+        goal_cell(goal), *(memory_cell(outcome.times) for outcome in (theirs, ours)),
         f"{megabytes(ours.times['bytes'])} MB", f"{ours.times['bytes'] / elements:.0f}", f"{share:.2f}",
         verdict(is_met, reasons),
     ], is_met
