@@ -131,7 +131,8 @@ function readDragon(suffix) {
   const [head, body] = text.split('end_header\n');
   const count = (element) => Number(head.match(new RegExp(`element ${element} (\\d+)`))[1]);
   const lines = body.split('\n');
-  const numbers = (from, length, skip) => lines.slice(from, from + length).map((line) => line.trim().split(/\s+/).map(Number).slice(skip, skip + 3));
+  const three = (line, skip) => line.trim().split(/\s+/).map(Number).slice(skip, skip + 3);
+  const numbers = (from, length, skip) => lines.slice(from, from + length).map((line) => three(line, skip));
   const [vertices, faces] = [count('vertex'), count('face')];
   const positions = numbers(0, vertices, 0).flat().map((c) => 1000 * c);
   return { positions: Float64Array.from(positions), triangles: Uint32Array.from(numbers(vertices, faces, 1).flat()) };

@@ -36,7 +36,9 @@ function open(fw, path) {
   const bytes = readFileSync(path);
   if (!path.endsWith('.f64')) return fw.Soup.parse(bytes);
   const records = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length / 8);
-  const column = (from, width) => Float64Array.from({ length: (records.length / 7) * width }, (_, i) => records[7 * Math.floor(i / width) + from + (i % width)]);
+  const count = records.length / 7;
+  const column = (from, width) =>
+    Float64Array.from({ length: count * width }, (_, i) => records[7 * Math.floor(i / width) + from + (i % width)]);
   return fw.Cloud.from({ points: column(0, 3), normals: column(3, 3), areas: column(6, 1) });
 }
 

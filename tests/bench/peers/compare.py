@@ -8,6 +8,7 @@ is found by the direct sum in f64 (truth.py); jobs and goals are in jobs.py. `--
 PLY or OBJ. `--quick` tries everything on few points: its ratios mean little.
 """
 import argparse
+import os
 import pathlib
 import platform
 import sys
@@ -47,6 +48,7 @@ def main():
     paths = models.make(sorted({name for job in todo if not job.own for name in job.models})) | own
     program = environment.measuring_program()
     print(f"\n{options.threads} thread(s), medians of {options.rounds} round(s), {platform.processor() or platform.machine()}")
+    print(load())
     verdicts = {}
     with tempfile.TemporaryDirectory(dir=models.MODELS) as name:
         bench = Bench(options, program, pathlib.Path(name))
@@ -61,6 +63,12 @@ def main():
             is_build = job.modes == [jobs.BUILD]
             print(f"\n### {job.name}\n\n{table(BUILD_HEADS if is_build else HEADS, rows)}", flush=True)
     summarise(verdicts)
+    print(f"\n{load()}")
+
+
+def load():
+    """How busy the machine is: besides the one that is measured nobody should run."""
+    return f"Load of the last 1, 5 and 15 minutes: {', '.join(f'{part:.1f}' for part in os.getloadavg())}; {os.cpu_count()} processors."
 
 
 def note(verdicts, job, model, mode, peer, is_met):

@@ -81,7 +81,9 @@ def row(job, model, queries, mode, ours, peer, theirs, truth):
     key = "evaluation" if job.prepared else "total"
     ratio = theirs.times[key] / ours.times[key]
     (their_rms, _), (our_rms, our_max) = errors(theirs, truth), errors(ours, truth)
-    (their_wrong, _), (our_wrong, checked) = wrong(theirs, truth), wrong(ours, truth)
+    (their_wrong, their_checked), (our_wrong, checked) = wrong(theirs, truth), wrong(ours, truth)
+    # A peer that was asked in part of the places is judged there.
+    of = f" of {their_checked}" if their_checked < checked else ""
     reasons = []
     if goal and ratio < goal:
         reasons.append("ratio")
@@ -98,7 +100,7 @@ def row(job, model, queries, mode, ours, peer, theirs, truth):
     unsure = f" ({truth.left} doubtful not looked at)" if truth.left else ""
     return head + [
         seconds(theirs.times[key], theirs.times["stride"]), seconds(ours.times[key]), f"{ratio:.3g} ×", goal_cell(goal),
-        f"{number(their_rms)} / {number(our_rms)}", number(our_max), f"{their_wrong} / {our_wrong}", f"{checked}{unsure}",
+        f"{number(their_rms)} / {number(our_rms)}", number(our_max), f"{their_wrong}{of} / {our_wrong}", f"{checked}{unsure}",
         str(truth.skipped), verdict(is_met, reasons),
     ], is_met
 
