@@ -1,31 +1,43 @@
-// Runs the benches: `native` (criterion), `wasm` (Node, beside native) and `peers` (beside other implementations), or
-// those named.
+// Runs the benches: `native` (criterion), `wasm` (Node, beside native), `browser` (Chromium, beside three-mesh-bvh) and
+// `peers` (beside other implementations), or those named. What begins with -- and all after it goes to each of them:
+//     npm --prefix www run bench peers -- --rounds 5
 import { join } from 'node:path';
 import { assemble } from './tools/assemble.mjs';
+import { browser } from './tools/browser.mjs';
+import { npmInstall } from './tools/npm.mjs';
 import { root } from './tools/paths.mjs';
 import { program, run, say, which, StepFailed } from './tools/run.mjs';
 import { requireCargo } from './tools/rust.mjs';
 
+const script = (name) => join(root, 'tests/bench', name);
+
 const BENCHES = {
-  native: () => run('cargo', ['bench'], { cwd: root }),
-  async wasm() {
+  native: (options) => run('cargo', ['bench', ...(options.length ? ['--', ...options] : [])], { cwd: root }),
+  async wasm(options) {
     await assemble();
-    await run('cargo', ['build', '--release', '--example', 'measure'], { cwd: root });
-    await run('node', [join(root, 'tests/bench/wasm.mjs')], { cwd: root });
+    await run('node', [script('wasm.mjs'), ...options], { cwd: root });
   },
-  async peers() {
+  async browser(options) {
+    await assemble();
+    const { chromium } = await browser();
+    await run('node', [script('browser.mjs'), ...options], { cwd: root, env: { CHROMIUM: chromium } });
+  },
+  async peers(options) {
     if (!which('python3')) throw new StepFailed('python3 is missing. On Debian: apt-get install -y python3 python3-venv');
-    await run('python3', [join(root, 'tests/bench/peers/compare.py')], { cwd: root });
+    await npmInstall();
+    await run('python3', [script('peers/compare.py'), ...options], { cwd: root });
   },
 };
 
 await program(async () => {
   requireCargo();
-  const named = process.argv.slice(2);
+  const words = process.argv.slice(2);
+  const first = words.findIndex((word) => word.startsWith('--'));
+  const [named, options] = first < 0 ? [words, []] : [words.slice(0, first), words.slice(first)];
   const unknown = named.find((name) => !(name in BENCHES));
   if (unknown) throw new StepFailed(`unknown bench '${unknown}': ${Object.keys(BENCHES).join(', ')} are known`);
   for (const name of named.length ? named : Object.keys(BENCHES)) {
     say(`bench: ${name}`);
-    await BENCHES[name]();
+    await BENCHES[name](options);
   }
 });
