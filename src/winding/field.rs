@@ -219,6 +219,39 @@ impl WindingField {
         Ok(Grid { lattice: *lattice, values })
     }
 
+    /// The gradient of the winding number at `q`, per millimetre: it points inward. NaN where `q` is not finite.
+    ///
+    /// `accuracy` chooses the clusters as it does for w; where only the direct sum reaches it, so does the gradient's
+    /// (see [`super::winding_gradient`] for what it is on the surface).
+    pub fn gradient(&self, q: Vec3, accuracy: Accuracy) -> Vec3 {
+        self.gradient_with(q, accuracy, &mut Scratch::default())
+    }
+
+    fn gradient_with(&self, q: Vec3, accuracy: Accuracy, scratch: &mut Scratch) -> Vec3 {
+        match (self.expansion_for(accuracy), &self.tree) {
+            (None, AnyTree::Soup(tree)) => tree.direct_gradient(q),
+            (None, AnyTree::Cloud(tree)) => tree.direct_gradient(q),
+            (Some((order, beta)), AnyTree::Soup(tree)) => tree.gradient(q, order, beta, scratch),
+            (Some((order, beta)), AnyTree::Cloud(tree)) => tree.gradient(q, order, beta, scratch),
+        }
+    }
+
+    /// Gradients of the winding number at `points`, in their order.
+    ///
+    /// # Errors
+    /// If and only if `monitor` cancels or the gradients do not fit in memory.
+    pub fn gradients(
+        &self,
+        points: &[Vec3],
+        accuracy: Accuracy,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<Vec3>, FieldError> {
+        let value = |i: usize, scratch: &mut Scratch| self.gradient_with(points[i], accuracy, scratch);
+        let mut gradients = zeroed(points.len())?;
+        fill_in_blocks(&mut gradients, value, "gradients", monitor)?;
+        Ok(gradients)
+    }
+
     /// Whether w ≥ 1/2 at each of `points`.
     ///
     /// # Errors

@@ -4,8 +4,10 @@
 mod dipoles;
 mod exact;
 mod field;
+mod gradient;
 mod triangles;
 
 pub use crate::treecode::{Order, Scratch};
 pub use exact::{winding, winding_of_cloud, winding_of_soup};
 pub use field::{Accuracy, FieldConfig, FieldError, FieldReport, WindingField};
+pub use gradient::{edge_gradient, winding_gradient, winding_gradient_of_cloud, winding_gradient_of_soup};
