@@ -1,9 +1,14 @@
-//! Vectors, boxes, triangles and small matrices: no knowledge of files, trees or fields.
+//! Vectors, boxes, triangles, exact predicates and small matrices: no knowledge of files, trees or fields.
 mod aabb;
 mod plane;
+mod predicates;
 mod triangle;
 
 pub use aabb::Aabb;
 pub use glam::{DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
 pub use plane::{PlaneFit, fit_plane};
+pub use predicates::{
+    Sign, covers, normal_signs, orient_yz, perturbed_side_of_plane, side_of_edge, side_of_plane, tie_break,
+    touches,
+};
 pub use triangle::{area_vector, barycentre, solid_angle};
