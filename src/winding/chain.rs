@@ -27,7 +27,8 @@ pub fn weld(positions: &[Vec3]) -> Vec<u32> {
         for (tag, vertex) in vertices.bucket(bucket) {
             let mut slot = tag as usize & mask;
             let place = |v: u32| positions[v as usize];
-            while slots[slot].1 != u32::MAX && (slots[slot].0 != tag || place(slots[slot].1) != place(vertex)) {
+            while slots[slot].1 != u32::MAX && (slots[slot].0 != tag || place(slots[slot].1) != place(vertex))
+            {
                 slot = (slot + 1) & mask;
             }
             if slots[slot].1 == u32::MAX {
