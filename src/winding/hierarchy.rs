@@ -156,7 +156,7 @@ impl Builder<'_> {
             // Boundaries below have been used.
             lower.iter_mut().flatten().for_each(|piece| piece.boundary = Vec::new());
         }
-        (pieces.first().map_or_else(Piece::default, |root| Piece::joined(root)), pieces)
+        (pieces.first().map_or_else(Piece::default, Piece::joined), pieces)
     }
 
     fn leaf(&self, triangles: &[u32]) -> Piece {
