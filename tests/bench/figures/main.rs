@@ -36,7 +36,7 @@ fn main() {
     let fallback = models::damaged_torus(10_000);
     let voxel_models = if chosen.is_empty() { vec![&fallback] } else { chosen };
     accuracy::report(&voxel_models, folder);
-    let made = [1_000, 30_000].map(models::damaged_torus).into_iter().chain([models::overlapping()]);
+    let made = [1_000, 10_000].map(models::damaged_torus).into_iter().chain([models::overlapping()]);
     quality::report(read.iter().cloned().chain(made));
     println!("All of it took {:.0} s.", start.elapsed().as_secs_f64());
 }

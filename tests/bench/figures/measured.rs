@@ -35,6 +35,9 @@ pub fn points(lattice: &Lattice) -> Vec<Vec3> {
 pub fn affordable(points: &[Vec3], budget: f64, seconds_for: impl Fn(&[Vec3]) -> f64) -> Vec<Vec3> {
     const PROBES: usize = 400;
     let every = |k: usize| -> Vec<Vec3> { points.iter().step_by(k | 1).copied().collect() };
+    if points.len() <= PROBES {
+        return points.to_vec();
+    }
     let probe = every(points.len() / PROBES);
     let whole = seconds_for(&probe) * points.len() as f64 / probe.len() as f64;
     if whole <= budget { points.to_vec() } else { every((whole / budget).ceil() as usize) }
