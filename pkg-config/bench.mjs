@@ -1,8 +1,12 @@
-// Runs the benches: `native` (criterion), `wasm` (Node, beside native), `browser` (Chromium, beside three-mesh-bvh) and
-// `peers` (beside other implementations), or those named. What begins with -- and all after it goes to each of them:
+// Runs the benches: `native` (criterion), `wasm` (Node, beside native), `browser` (Chromium, beside three-mesh-bvh),
+// `peers` (beside other implementations) and `figures` (those of the paper, as tables and as plots in docs/figures), or
+// those named. What begins with -- and all after it goes to each of them; for the figures it is `--models` and files:
 //     npm --prefix www run bench peers -- --rounds 5
-import { join } from 'node:path';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
 import { assemble } from './tools/assemble.mjs';
+import { writeModels } from './tools/bench-models.mjs';
 import { browser } from './tools/browser.mjs';
 import { npmInstall } from './tools/npm.mjs';
 import { root } from './tools/paths.mjs';
@@ -26,6 +30,18 @@ const BENCHES = {
     if (!which('python3')) throw new StepFailed('python3 is missing. On Debian: apt-get install -y python3 python3-venv');
     await npmInstall();
     await run('python3', [script('peers/compare.py'), ...options], { cwd: root });
+  },
+  async figures(options) {
+    await npmInstall();
+    const furtherModels = options.filter((word) => word !== '--models').map((path) => resolve(path));
+    const folder = mkdtempSync(join(tmpdir(), 'fast-winding-'));
+    try {
+      const models = [...writeModels(folder), ...furtherModels];
+      const cargo = ['run', '--release', '--example', 'figures', '--', join(root, 'docs/figures'), ...models];
+      await run('cargo', cargo, { cwd: root });
+    } finally {
+      rmSync(folder, { recursive: true });
+    }
   },
 };
 

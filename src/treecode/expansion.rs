@@ -3,6 +3,8 @@
 //! With R = q − c, the field of a cluster is (1/4π) Σ A_γ ∂^γ(1/|R|), |γ| = 1, 2, 3. Each degree n equals
 //! (−1)ⁿ (2n−1)!! Hₙ(R) / |R|^(2n+1), Hₙ the harmonic part of the polynomial Σ A_γ R^γ: 3, 5 and 7 coefficients
 //! instead of 3, 9 and 18 (Barill et al. 2018, eqs. 22 to 24, with their traces removed).
+mod gradient;
+
 use super::moments::Moments;
 use crate::bvh::WIDTH;
 use crate::math::Vec3;

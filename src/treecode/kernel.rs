@@ -36,4 +36,7 @@ pub trait Kernel: Sync {
     fn add(sum: &mut Self::Sum, block: &Self::Block, query: &Lanes);
     /// The winding number of all blocks added.
     fn total(sum: Self::Sum) -> f64;
+
+    /// Adds the gradients of the winding numbers of a block, times 4π, each source in a lane of its own.
+    fn add_gradient(sum: &mut Lanes, block: &Self::Block, query: &Lanes);
 }

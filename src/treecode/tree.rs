@@ -1,3 +1,5 @@
+mod gradient;
+
 use super::expansion::{Cluster, Expansion, Order, Positions};
 use super::kernel::{Kernel, Quadrature};
 use super::moments::Moments;

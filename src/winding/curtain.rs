@@ -46,10 +46,14 @@ impl Curtain {
         self.edges
     }
 
+    /// Directed boundary edges.
+    pub fn each_edge(&self) -> impl Iterator<Item = [Vec3; 2]> + '_ {
+        self.cycles.iter().flat_map(|c| (0..c.len()).map(move |k| [c[k], c[(k + 1) % c.len()]]))
+    }
+
     /// Whether `q` lies on a boundary edge.
     pub fn touches(&self, q: Vec3) -> bool {
-        let edges = self.cycles.iter().flat_map(|c| (0..c.len()).map(move |k| [c[k], c[(k + 1) % c.len()]]));
-        edges.into_iter().any(|[a, b]| {
+        self.each_edge().any(|[a, b]| {
             let is_within = a.min(b).cmple(q).all() && q.cmple(a.max(b)).all();
             is_within && normal_signs([a, b, q]) == [0; 3]
         })

@@ -54,4 +54,18 @@ impl Kernel for OrientedCloud {
         let [a, b, c, d] = sum.to_array();
         ((a + b) + (c + d)) / (4.0 * PI)
     }
+
+    #[inline(always)]
+    fn add_gradient(sum: &mut Lanes, block: &DipoleBlock, q: &Lanes) {
+        let offset = [0, 1, 2].map(|i| block.points[i] - q[i]);
+        let [x, y, z] = offset;
+        let [nx, ny, nz] = block.area_vectors;
+        let square = x * x + y * y + z * z;
+        let is_apart = square.simd_gt(f64x4::ZERO);
+        let along = f64x4::splat(3.0) * (x * nx + y * ny + z * nz) / square;
+        let cube = square * square.sqrt();
+        for i in 0..3 {
+            sum[i] += is_apart & ((along * offset[i] - block.area_vectors[i]) / cube);
+        }
+    }
 }

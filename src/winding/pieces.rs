@@ -1,5 +1,6 @@
 use super::triangles::AngleProduct;
 use crate::bvh::WIDTH;
+use crate::data::TriangleSoup;
 use crate::math::{Vec3, area_vector, perturbed_side_of_plane};
 use crate::treecode::{Kernel, Lanes, Quadrature};
 use wide::f64x4;
@@ -70,6 +71,11 @@ impl Kernel for Pieces {
             numerator = decided(numerator, doubtful, block, q);
         }
         sum.multiply(denominator, numerator);
+    }
+
+    #[inline(always)]
+    fn add_gradient(sum: &mut Lanes, block: &PieceBlock, q: &Lanes) {
+        TriangleSoup::add_gradient(sum, &block.corners, q);
     }
 
     fn total(sum: AngleProduct) -> f64 {

@@ -44,6 +44,35 @@ impl Kernel for TriangleSoup {
     fn total(sum: AngleProduct) -> f64 {
         sum.turns()
     }
+
+    #[inline(always)]
+    fn add_gradient(sum: &mut Lanes, corners: &[Lanes; 3], q: &Lanes) {
+        let relative = corners.each_ref().map(|c| minus(c, q));
+        let lengths = relative.each_ref().map(|r| dot(r, r).sqrt());
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let along = minus(&corners[j], &corners[i]);
+            add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
+        }
+    }
+}
+
+/// [`super::edge_gradient`] of four edges, times 4π, given their ends relative to the query.
+#[inline(always)]
+fn add_edge(sum: &mut Lanes, [a, b]: [&Lanes; 2], [la, lb]: [f64x4; 2], along: &Lanes) {
+    let one = f64x4::ONE;
+    let is_a_nearer = la.simd_le(lb);
+    let near = [0, 1, 2].map(|i| is_a_nearer.bitselect(a[i], b[i]));
+    let inverse = one / (la * lb);
+    let sine = cross(&near, along).map(|c| c * inverse);
+    let sine_squared = dot(&sine, &sine);
+    let cosine = dot(a, b) * inverse;
+    let weight = cosine.simd_ge(f64x4::ZERO).bitselect(one / (one + cosine), (one - cosine) / sine_squared);
+    // Comparisons with NaN, at an end of the edge, fail too.
+    let is_aside = sine_squared.simd_gt(f64x4::ZERO);
+    let weight = weight * (la + lb) * inverse;
+    for i in 0..3 {
+        sum[i] += is_aside & (weight * sine[i]);
+    }
 }
 
 /// Denominator and numerator of the tangent of half the solid angles of four triangles, and a size to which the rounding

@@ -88,6 +88,19 @@ pub fn without(soup: &TriangleSoup, dropped: impl Fn(usize) -> bool) -> Triangle
     TriangleSoup::new(soup.positions().to_vec(), kept).unwrap()
 }
 
+/// The soup with a tenth of its triangles missing, a tenth flipped and a tenth twice, drawn by lot.
+pub fn damaged(soup: &TriangleSoup, seed: u64) -> TriangleSoup {
+    let mut next = random(seed);
+    let fate = |[a, b, c]: [u32; 3]| match (10.0 * next()) as u32 {
+        0 => vec![],
+        1 => vec![[a, c, b]],
+        2 => vec![[a, b, c], [b, c, a]],
+        _ => vec![[a, b, c]],
+    };
+    let triangles = soup.triangles().iter().copied().flat_map(fate).collect();
+    TriangleSoup::new(soup.positions().to_vec(), triangles).unwrap()
+}
+
 /// `count` points spread evenly over the unit sphere, each standing for its share of 4π.
 pub fn sphere_cloud(count: usize) -> OrientedCloud {
     let golden = PI * (3.0 - 5f64.sqrt());
