@@ -120,7 +120,10 @@ pub fn voxelize(
         return Err(VoxelError::BadThreshold(config.threshold));
     }
     let bits = match config.method {
-        VoxelMethod::Lattice => field.classify_lattice(lattice, config.threshold, monitor)?,
+        VoxelMethod::Lattice => {
+            let named = |fraction: f64, _: &str| monitor.report(fraction, "voxels").is_ok();
+            field.classify_lattice(lattice, config.threshold, &named)?
+        }
         VoxelMethod::Continuation => along_the_level_set(field, lattice, config.threshold, monitor)?,
     };
     Ok(Voxels { lattice: *lattice, bits })
