@@ -7,7 +7,7 @@ import { box, boxObj, sphere, torus } from './shapes.mjs';
 const { load } = install();
 const { init, WindingError } = await load('node/index.js');
 const sync = await load('node/sync.js');
-const LONG = { resolution: 500, threshold: 0.25 };
+const LONG = { resolution: 500, threshold: 0.25, method: 'continuation' };
 
 test('init is idempotent, and says what runs', async () => {
   const fw = await init({ threads: 2 });
