@@ -7,7 +7,7 @@ import { box, boxObj, sphere, torus } from './shapes.mjs';
 const { load } = install();
 const { init, WindingError } = await load('node/index.js');
 const sync = await load('node/sync.js');
-const LONG = { resolution: 500, threshold: 0.25, method: 'continuation' };
+const LONG = { resolution: 500, threshold: 0.25 };
 
 test('init is idempotent, and says what runs', async () => {
   const fw = await init({ threads: 2 });
@@ -124,7 +124,7 @@ test('inputs stay the caller’s unless handed over', async () => {
 
 test('with threads an abort takes effect within 100 ms, and the engine goes on', async () => {
   const fw = await init({ threads: 2 });
-  const soup = await fw.Soup.from(torus(200));
+  const soup = await fw.Cloud.from(sphere(5000, 1));
   const latencies = [];
   for (let attempt = 0; attempt < 5; attempt++) {
     const controller = new AbortController();
@@ -142,7 +142,7 @@ test('with threads an abort takes effect within 100 ms, and the engine goes on',
 
 test('without threads an abort replaces the worker, and shapes live on', async () => {
   const fw = await init({ threads: false });
-  const soup = await fw.Soup.from(torus(100));
+  const soup = await fw.Cloud.from(sphere(5000, 1));
   const freed = await fw.open(boxObj());
   freed.free();
   const { points } = sphere(500, 10);
@@ -161,7 +161,7 @@ test('without threads an abort replaces the worker, and shapes live on', async (
 
 test('calls that wait can be withdrawn, and a call aborted beforehand never starts', async () => {
   const fw = await init({ threads: 2 });
-  const soup = await fw.Soup.from(torus(60));
+  const soup = await fw.Cloud.from(sphere(5000, 1));
   const controller = new AbortController();
   const first = soup.voxelize({ resolution: 100 });
   const second = soup.voxelize({ resolution: 100, signal: controller.signal });
@@ -174,7 +174,7 @@ test('calls that wait can be withdrawn, and a call aborted beforehand never star
 
 test('disposing rejects the calls that run', async () => {
   const fw = await init({ threads: 2 });
-  const soup = await fw.Soup.from(torus(60));
+  const soup = await fw.Cloud.from(sphere(5000, 1));
   const call = soup.voxelize(LONG);
   fw.dispose();
   await assert.rejects(call, { code: 'Freed' });
