@@ -22,7 +22,7 @@ for (const [name, start] of Object.entries(entries)) {
 
     await t.test('prepare', async () => {
       const { milliseconds, bytes, method, components, boundaryEdges, caps } = await soup.prepare({ leafSize: 4 });
-      assert.ok(milliseconds >= 0 && bytes > 0 && method.includes('triangles'));
+      assert.ok(milliseconds >= 0 && bytes > 0 && method.includes('crossings'));
       assert.deepEqual([components, boundaryEdges, caps], [1, 0, 0]);
     });
     await t.test('winding numbers are 1 inside, 0 outside, and 1/2, 1/4, 1/8 on a face, an edge, a vertex', async () => {
