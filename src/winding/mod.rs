@@ -4,6 +4,7 @@
 mod dipoles;
 mod exact;
 mod field;
+mod near;
 mod triangles;
 
 pub use crate::treecode::{Order, Scratch};

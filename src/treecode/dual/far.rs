@@ -1,0 +1,114 @@
+//! Far fields of clusters at blocks of queries (M2L), four clusters at a time.
+use super::bounds::{self, ROUND_UP, ROUNDING_OF_TAYLOR};
+use super::clusters::Clusters;
+use super::derivatives::{Derivatives, REDUCED};
+use super::local::{Local, sum_of_lanes};
+use super::moments::COEFFICIENTS;
+use super::place::Place;
+use super::{DualAccuracy, WIDTH};
+use wide::f32x4;
+
+/// The space that M2L needs.
+#[derive(Default)]
+pub struct FarFields {
+    derivatives: Derivatives,
+}
+
+impl FarFields {
+    /// Adds the fields of the clusters `far` to the Taylor polynomial of a block; answers a bound of the error made.
+    pub fn add(
+        &mut self,
+        clusters: &Clusters,
+        far: &[u32],
+        place: &Place,
+        accuracy: &DualAccuracy,
+        local: &mut Local,
+    ) -> f64 {
+        if far.is_empty() {
+            return 0.0;
+        }
+        let mut sums = [f32x4::ZERO; REDUCED];
+        let mut error = 0.0;
+        for four in far.chunks(WIDTH) {
+            error += self.add_four(clusters, four, place, accuracy, &mut sums);
+        }
+        local.add_derivatives(&sums, accuracy.degree);
+        ROUND_UP * error
+    }
+
+    fn add_four(
+        &mut self,
+        clusters: &Clusters,
+        four: &[u32],
+        place: &Place,
+        accuracy: &DualAccuracy,
+        sums: &mut [f32x4; REDUCED],
+    ) -> f64 {
+        let at = |k: usize| four[if k < four.len() { k } else { 0 }] as usize;
+        let members = [at(0), at(1), at(2), at(3)];
+        let (offset, radius) = place.relative_to(members.map(|m| &clusters.balls[m]));
+        let series = members.map(|m| &clusters.series[m]);
+        let spread = series.map(|s| bounds::spread_of_order(s.spread, accuracy.order));
+        // Places beyond the last cluster repeat the first, without area.
+        let weight = |k: usize| if k < four.len() { series[k].area } else { 0.0 };
+        let area = f32x4::from([weight(0), weight(1), weight(2), weight(3)]);
+
+        let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
+        let distance = square.sqrt();
+        let inverse = f32x4::splat(1.0) / distance;
+        let coefficients = weighted(series.map(|s| &s.coefficients), area * inverse * inverse, radius * inverse);
+        let reach = f32x4::splat(place.radius);
+        let unit = offset.map(|x| x * inverse);
+        add_taylor(&mut self.derivatives, unit, &coefficients, reach * inverse, accuracy, sums);
+
+        let (inner, outer) = (distance - reach, distance - radius);
+        let left_out = bounds::multipole_tail(area, f32x4::from(spread), radius, inner, accuracy.order)
+            + bounds::taylor_tail(area, reach, outer, accuracy.degree);
+        let rounding = bounds::largest_field(area, inner - radius);
+        sum_of_lanes(left_out) + ROUNDING_OF_TAYLOR * sum_of_lanes(rounding)
+    }
+}
+
+/// Coefficients of four clusters in lanes, those of degree n times `weight` · `ratio`^(n−1).
+#[inline(always)]
+fn weighted(
+    series: [&[f32; COEFFICIENTS]; WIDTH],
+    weight: f32x4,
+    ratio: f32x4,
+) -> [f32x4; COEFFICIENTS] {
+    let mut lanes = [f32x4::ZERO; COEFFICIENTS];
+    for k in (0..COEFFICIENTS).step_by(WIDTH) {
+        let rows = series.map(|s| f32x4::from([s[k], s[k + 1], s[k + 2], s[k + 3]]));
+        lanes[k..k + WIDTH].copy_from_slice(&f32x4::transpose(rows));
+    }
+    let mut scale = weight;
+    for n in 1..5 {
+        lanes[n * n - 1..n * n + 2 * n].iter_mut().for_each(|c| *c *= scale);
+        scale *= ratio;
+    }
+    lanes
+}
+
+fn add_taylor(
+    derivatives: &mut Derivatives,
+    unit: [f32x4; 3],
+    coefficients: &[f32x4; COEFFICIENTS],
+    s: f32x4,
+    accuracy: &DualAccuracy,
+    sums: &mut [f32x4; REDUCED],
+) {
+    match accuracy.order + 1 + accuracy.degree {
+        ..=4 => derivatives.compute::<4>(unit),
+        5 => derivatives.compute::<5>(unit),
+        6 => derivatives.compute::<6>(unit),
+        7 => derivatives.compute::<7>(unit),
+        8 => derivatives.compute::<8>(unit),
+        _ => derivatives.compute::<9>(unit),
+    }
+    match accuracy.order {
+        0 => derivatives.add_taylor::<0>(accuracy.degree, coefficients, s, sums),
+        1 => derivatives.add_taylor::<1>(accuracy.degree, coefficients, s, sums),
+        2 => derivatives.add_taylor::<2>(accuracy.degree, coefficients, s, sums),
+        _ => derivatives.add_taylor::<3>(accuracy.degree, coefficients, s, sums),
+    }
+}

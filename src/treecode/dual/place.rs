@@ -1,0 +1,111 @@
+use super::clusters::Ball;
+use super::{GROUPS, QueryBlock, QueryLanes, WIDTH};
+use crate::math::{Aabb, Vec3};
+use crate::treecode::frame::Frame;
+use wide::{f32x4, f64x4};
+
+/// Where a block of queries is, in the tree's unit frame.
+#[derive(Clone, Copy)]
+pub struct Place {
+    pub center: Vec3,
+    /// The centre as the sum of two 32-bit floats: near a cluster a single one would lose the direction.
+    high: [f32x4; 3],
+    low: [f32x4; 3],
+    /// Half the edges of the block.
+    pub half: Vec3,
+    /// A bound of the distance of a query from the centre; never 0, as lengths are measured in it.
+    pub radius: f32,
+}
+
+/// Queries farther than this in the unit frame get 0: less than 1e-30 of the area, and powers stay within 32-bit floats.
+const HORIZON: f64 = 1e15;
+const SMALLEST_RADIUS: f64 = 1e-12;
+
+impl Place {
+    pub fn new(bounds: &Aabb, frame: &Frame) -> Place {
+        let (low, high) = (near(frame, bounds.min), near(frame, bounds.max));
+        let half = 0.5 * (high - low);
+        Place::around(low + half, half)
+    }
+
+    pub fn around(center: Vec3, half: Vec3) -> Place {
+        let parts = center.to_array().map(|x| (x as f32, (x - f64::from(x as f32)) as f32));
+        // Rounded up by more than the rounding of positions relative to the centre.
+        let radius = (half.length() * (1.0 + 1e-6)).max(SMALLEST_RADIUS) as f32;
+        Place {
+            center,
+            high: parts.map(|p| f32x4::splat(p.0)),
+            low: parts.map(|p| f32x4::splat(p.1)),
+            half,
+            radius,
+        }
+    }
+
+    /// The centre relative to those of four clusters, and their radii.
+    #[inline(always)]
+    pub fn relative_to(&self, balls: [&Ball; WIDTH]) -> ([f32x4; 3], f32x4) {
+        let [x, y, z, radius] = f32x4::transpose(balls.map(|b| f32x4::from(*b)));
+        let offset = |axis: usize, c: f32x4| (self.high[axis] - c) + self.low[axis];
+        ([offset(0, x), offset(1, y), offset(2, z)], radius)
+    }
+
+    /// The centre of a cluster relative to the block's.
+    pub fn offset_of(&self, ball: &Ball) -> Vec3 {
+        Vec3::new(f64::from(ball[0]), f64::from(ball[1]), f64::from(ball[2])) - self.center
+    }
+}
+
+fn near(frame: &Frame, p: Vec3) -> Vec3 {
+    frame.local(p).clamp(Vec3::splat(-HORIZON), Vec3::splat(HORIZON))
+}
+
+/// The queries of a block as the near and the far field want them.
+pub struct Block {
+    pub queries: QueryBlock,
+    /// Positions relative to the block's centre, in the tree's unit frame.
+    pub local: [QueryLanes; GROUPS],
+    /// The same in units of the block's radius.
+    pub scaled: [QueryLanes; GROUPS],
+    /// Queries beyond the horizon, one bit each.
+    pub beyond: u64,
+}
+
+impl Block {
+    pub fn new(points: &[Vec3], bounds: &Aabb, place: &Place, frame: &Frame) -> Block {
+        let center = bounds.center();
+        let groups = points.len().div_ceil(WIDTH);
+        let mut block = Block {
+            queries: QueryBlock {
+                positions: [center.to_array().map(f64x4::splat); GROUPS],
+                center,
+                offsets: [[f32x4::ZERO; 3]; GROUPS],
+                groups,
+            },
+            local: [[f32x4::ZERO; 3]; GROUPS],
+            scaled: [[f32x4::ZERO; 3]; GROUPS],
+            beyond: 0,
+        };
+        let inverse = f32x4::splat(1.0 / place.radius);
+        for (g, four) in points.chunks(WIDTH).enumerate() {
+            let at = |k: usize| *four.get(k).unwrap_or(&center);
+            let four = [at(0), at(1), at(2), at(3)];
+            let local = four.map(|p| near(frame, p) - place.center);
+            for axis in 0..3 {
+                block.queries.positions[g][axis] = f64x4::from(four.map(|p| p[axis]));
+                block.queries.offsets[g][axis] = f32x4::from(four.map(|p| (p[axis] - center[axis]) as f32));
+                block.local[g][axis] = f32x4::from(local.map(|p| p[axis] as f32));
+                block.scaled[g][axis] = block.local[g][axis] * inverse;
+            }
+            for (k, p) in four.into_iter().enumerate() {
+                let is_beyond = frame.local(p).abs().max_element() > HORIZON;
+                block.beyond |= u64::from(is_beyond) << (WIDTH * g + k);
+            }
+        }
+        block
+    }
+
+    /// One bit for each group.
+    pub fn all(&self) -> u32 {
+        ((1u64 << self.queries.groups) - 1) as u32
+    }
+}

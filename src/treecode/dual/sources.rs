@@ -1,0 +1,72 @@
+use super::GROUPS;
+use crate::math::Vec3;
+use std::sync::Arc;
+use wide::{f32x4, f64x4};
+
+/// Coordinates of four queries near the middle of their block.
+pub type QueryLanes = [f32x4; 3];
+
+/// Up to 64 queries that lie close together, four in each group; lanes without a query are in the middle.
+#[derive(Clone)]
+pub struct QueryBlock {
+    pub positions: [[f64x4; 3]; GROUPS],
+    /// A point amid the queries.
+    pub center: Vec3,
+    /// Positions relative to the centre.
+    pub offsets: [QueryLanes; GROUPS],
+    /// Groups with a query, the first ones.
+    pub groups: usize,
+}
+
+/// A kind of source for a [`super::DualTree`]: what its far field is made of and how its near field is summed.
+pub trait Sources: Sync {
+    /// The near field of four queries while it is being summed.
+    type Sum: Copy + Send + Sync;
+    /// Whether all three corners of every source are the same.
+    const POINTS: bool;
+
+    fn len(&self) -> usize;
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// The points whose hull is the source; finite.
+    fn corners(&self, index: usize) -> [Vec3; 3];
+    /// Area times normal.
+    fn area_vector(&self, index: usize) -> Vec3;
+
+    /// The sum of no sources.
+    fn zero() -> Self::Sum;
+    /// Adds the fields of the `members` to the sums of those groups of queries whose bit is set in `wanted`.
+    fn add(&self, members: &[u32], queries: &QueryBlock, wanted: u32, sums: &mut [Self::Sum; GROUPS]);
+    /// The winding numbers of all sources added.
+    fn total(sum: &Self::Sum) -> [f64; 4];
+}
+
+impl<S: Sources + Send> Sources for Arc<S> {
+    type Sum = S::Sum;
+    const POINTS: bool = S::POINTS;
+
+    fn len(&self) -> usize {
+        S::len(self)
+    }
+
+    fn corners(&self, index: usize) -> [Vec3; 3] {
+        S::corners(self, index)
+    }
+
+    fn area_vector(&self, index: usize) -> Vec3 {
+        S::area_vector(self, index)
+    }
+
+    fn zero() -> S::Sum {
+        S::zero()
+    }
+
+    fn add(&self, members: &[u32], queries: &QueryBlock, wanted: u32, sums: &mut [S::Sum; GROUPS]) {
+        S::add(self, members, queries, wanted, sums);
+    }
+
+    fn total(sum: &S::Sum) -> [f64; 4] {
+        S::total(sum)
+    }
+}
