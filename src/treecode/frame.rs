@@ -16,6 +16,7 @@ impl Frame {
         Frame { center: bounds.center(), scale }
     }
 
+    #[inline]
     pub fn local(&self, p: Vec3) -> Vec3 {
         (p - self.center) * self.scale
     }

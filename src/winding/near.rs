@@ -84,12 +84,13 @@ impl Triangle {
     /// numerators' errors if they are asked for.
     #[inline(always)]
     fn half_angles<D: Sides>(&self, q: &Lanes) -> (f64x4, f64x4, f64x4) {
-        let [a, b, c] = [0, 1, 2].map(|k| [0, 1, 2].map(|axis| self.corners[k][axis] - q[axis]));
+        let minus = |c: &Lanes| [c[0] - q[0], c[1] - q[1], c[2] - q[2]];
+        let [a, b, c] = [minus(&self.corners[0]), minus(&self.corners[1]), minus(&self.corners[2])];
         let numerator = dot(&a, &self.normal);
         let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
         let denominator = (la * lb + dot(&a, &b)) * lc + (dot(&b, &c) * la + dot(&c, &a) * lb);
         let bound =
-            if D::DECIDES { dot(&a.map(|x| x.abs()), &self.normal_magnitude) } else { f64x4::ZERO };
+            if D::DECIDES { dot(&[a[0].abs(), a[1].abs(), a[2].abs()], &self.normal_magnitude) } else { f64x4::ZERO };
         (numerator, denominator, bound)
     }
 }
@@ -103,18 +104,22 @@ impl Sources for TriangleSoup {
     type Sum = AngleProduct;
     const POINTS: bool = false;
 
+    #[inline]
     fn len(&self) -> usize {
         self.triangles().len()
     }
 
+    #[inline]
     fn corners(&self, index: usize) -> [Vec3; 3] {
         TriangleSoup::corners(self, index)
     }
 
+    #[inline]
     fn area_vector(&self, index: usize) -> Vec3 {
         area_vector(TriangleSoup::corners(self, index))
     }
 
+    #[inline]
     fn zero() -> AngleProduct {
         AngleProduct::ONE
     }
@@ -135,18 +140,22 @@ impl Sources for OrientedCloud {
     type Sum = f64x4;
     const POINTS: bool = true;
 
+    #[inline]
     fn len(&self) -> usize {
         self.points().len()
     }
 
+    #[inline]
     fn corners(&self, index: usize) -> [Vec3; 3] {
         [self.points()[index]; 3]
     }
 
+    #[inline]
     fn area_vector(&self, index: usize) -> Vec3 {
         self.areas()[index] * self.normals()[index]
     }
 
+    #[inline]
     fn zero() -> f64x4 {
         f64x4::ZERO
     }
@@ -161,7 +170,7 @@ impl Sources for OrientedCloud {
                 let group = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
                 let q = &queries.positions[group];
-                let offset = [0, 1, 2].map(|axis| point[axis] - q[axis]);
+                let offset = [point[0] - q[0], point[1] - q[1], point[2] - q[2]];
                 let square = dot(&offset, &offset);
                 let field = dot(&offset, &vector) / (square * square.sqrt());
                 sums[group] += square.simd_gt(f64x4::ZERO) & field;

@@ -97,9 +97,9 @@ impl AngleProduct {
 
     /// The winding numbers of the four lanes, each with its own query.
     pub fn turns_of_lanes(&self) -> [f64; WIDTH] {
-        let [real, imaginary, wraps] = [self.real, self.imaginary, self.wraps].map(|v| v.to_array());
         // −0 would turn an angle of π into −π.
-        std::array::from_fn(|k| libm::atan2(imaginary[k] + 0.0, real[k]) / TAU + wraps[k])
+        let angle = (self.imaginary + f64x4::ZERO).atan2(self.real);
+        (angle * f64x4::splat(1.0 / TAU) + self.wraps).to_array()
     }
 
     /// The winding number: the sum of half solid angles over 2π.

@@ -46,26 +46,32 @@ impl<S: Sources + Send> Sources for Arc<S> {
     type Sum = S::Sum;
     const POINTS: bool = S::POINTS;
 
+    #[inline]
     fn len(&self) -> usize {
         S::len(self)
     }
 
+    #[inline]
     fn corners(&self, index: usize) -> [Vec3; 3] {
         S::corners(self, index)
     }
 
+    #[inline]
     fn area_vector(&self, index: usize) -> Vec3 {
         S::area_vector(self, index)
     }
 
+    #[inline]
     fn zero() -> S::Sum {
         S::zero()
     }
 
+    #[inline]
     fn add(&self, members: &[u32], queries: &QueryBlock, wanted: u32, sums: &mut [S::Sum; GROUPS]) {
         S::add(self, members, queries, wanted, sums);
     }
 
+    #[inline]
     fn total(sum: &S::Sum) -> [f64; 4] {
         S::total(sum)
     }
