@@ -65,7 +65,6 @@ fn cross(a: &Lanes, b: &Lanes) -> Lanes {
 
 /// A sum of half solid angles, kept as the product of complex numbers with those arguments, and the number of times
 /// the product went around: one arctangent for a whole query instead of one for each triangle.
-#[derive(Clone, Copy)]
 pub struct AngleProduct {
     real: f64x4,
     imaginary: f64x4,
@@ -73,12 +72,12 @@ pub struct AngleProduct {
 }
 
 impl AngleProduct {
-    pub const ONE: AngleProduct = AngleProduct { real: f64x4::ONE, imaginary: f64x4::ZERO, wraps: f64x4::ZERO };
+    const ONE: AngleProduct = AngleProduct { real: f64x4::ONE, imaginary: f64x4::ZERO, wraps: f64x4::ZERO };
 
     /// Multiplies by `real + i·imaginary`, four factors at once. A factor without an imaginary part counts as 1: its
     /// triangle holds the query in its plane.
     #[inline(always)]
-    pub fn multiply(&mut self, real: f64x4, imaginary: f64x4) {
+    fn multiply(&mut self, real: f64x4, imaginary: f64x4) {
         let flat = imaginary.simd_eq(f64x4::ZERO);
         let real = flat.bitselect(f64x4::ONE, real);
         let new_real = self.real * real - self.imaginary * imaginary;
@@ -93,13 +92,6 @@ impl AngleProduct {
         let scale = reciprocal_power_of_two(new_real.abs() + new_imaginary.abs());
         self.real = new_real * scale;
         self.imaginary = new_imaginary * scale;
-    }
-
-    /// The winding numbers of the four lanes, each with its own query.
-    pub fn turns_of_lanes(&self) -> [f64; WIDTH] {
-        // −0 would turn an angle of π into −π.
-        let angle = (self.imaginary + f64x4::ZERO).atan2(self.real);
-        (angle * f64x4::splat(1.0 / TAU) + self.wraps).to_array()
     }
 
     /// The winding number: the sum of half solid angles over 2π.

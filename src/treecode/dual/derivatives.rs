@@ -94,21 +94,27 @@ impl Derivatives {
             let (below_z, from_z) = self.times_z.split_at_mut(n);
             let (first, second) = (&below[n - 1], &below[n.saturating_sub(2)]);
             let (first_z, second_z) = (&below_z[n - 1], &below_z[n.saturating_sub(2)]);
-            for a in 0..=n {
-                let i = a + MARGIN;
-                let e = (x * first[i - 1] + y * first[i]) - kappa * (second[i - 2] + second[i]);
-                from[0][i] = e;
-                self.table[row(n, 0) + a] = e * SCALE[2 * n][a];
+            let (rows, scale, scale_z) =
+                (&mut self.table[start(n)..], &SCALE[2 * n][..n + 1], &SCALE[2 * n + 1][..n]);
+            let (row_0, rows) = rows.split_at_mut(n + 1);
+            let (row_1, row_2) = rows.split_at_mut(n);
+            // Slices of one length: the loops need no checks. Entry a lies at a + MARGIN of a row.
+            let (plain, f_1, f_0) = (&mut from[0][2..n + 3], &first[1..n + 2], &first[2..n + 3]);
+            let (s_2, s_0) = (&second[..n + 1], &second[2..n + 3]);
+            for a in 0..n + 1 {
+                let e = (x * f_1[a] + y * f_0[a]) - kappa * (s_2[a] + s_0[a]);
+                plain[a] = e;
+                row_0[a] = e * scale[a];
             }
+            let (times_z, g_1, g_0) = (&mut from_z[0][2..n + 2], &first_z[1..n + 1], &first_z[2..n + 2]);
+            let (s_2, s_0) = (&second_z[..n], &second_z[2..n + 2]);
             for a in 0..n {
-                let i = a + MARGIN;
-                let e = (x * first_z[i - 1] + y * first_z[i] + z * first[i])
-                    - kappa * (second_z[i - 2] + second_z[i]);
-                from_z[0][i] = e;
-                self.table[row(n, 1) + a] = e * SCALE[2 * n + 1][a];
+                let e = (x * g_1[a] + y * g_0[a] + z * f_0[a]) - kappa * (s_2[a] + s_0[a]);
+                times_z[a] = e;
+                row_1[a] = e * scale_z[a];
             }
             for a in 0..n - 1 {
-                self.table[row(n, 2) + a] = -(self.table[row(n, 0) + a + 2] + self.table[row(n, 0) + a]);
+                row_2[a] = -(row_0[a + 2] + row_0[a]);
             }
         }
     }

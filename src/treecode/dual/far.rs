@@ -46,9 +46,11 @@ impl FarFields {
     ) -> f64 {
         let at = |k: usize| four[if k < four.len() { k } else { 0 }] as usize;
         let members = [at(0), at(1), at(2), at(3)];
-        let (offset, radius) = place.relative_to(members.map(|m| &clusters.balls[m]));
-        let series = members.map(|m| &clusters.series[m]);
-        let spread = series.map(|s| bounds::spread_of_order(s.spread, accuracy.order));
+        let ball = |k: usize| &clusters.balls[members[k]];
+        let (offset, radius) = place.relative_to([ball(0), ball(1), ball(2), ball(3)]);
+        let series = [0, 1, 2, 3].map(|k| &clusters.series[members[k]]);
+        let spread = |k: usize| bounds::spread_of_order(series[k].spread, accuracy.order);
+        let spread = [spread(0), spread(1), spread(2), spread(3)];
         // Places beyond the last cluster repeat the first, without area.
         let weight = |k: usize| if k < four.len() { series[k].area } else { 0.0 };
         let area = f32x4::from([weight(0), weight(1), weight(2), weight(3)]);
@@ -56,9 +58,11 @@ impl FarFields {
         let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
         let distance = square.sqrt();
         let inverse = f32x4::splat(1.0) / distance;
-        let coefficients = weighted(series.map(|s| &s.coefficients), area * inverse * inverse, radius * inverse);
+        let [a, b, c, d] = series;
+        let rows = [&a.coefficients, &b.coefficients, &c.coefficients, &d.coefficients];
+        let coefficients = weighted(rows, area * inverse * inverse, radius * inverse, accuracy.order);
         let reach = f32x4::splat(place.radius);
-        let unit = offset.map(|x| x * inverse);
+        let unit = [offset[0] * inverse, offset[1] * inverse, offset[2] * inverse];
         add_taylor(&mut self.derivatives, unit, &coefficients, reach * inverse, accuracy, sums);
 
         let (inner, outer) = (distance - reach, distance - radius);
@@ -75,14 +79,16 @@ fn weighted(
     series: [&[f32; COEFFICIENTS]; WIDTH],
     weight: f32x4,
     ratio: f32x4,
+    order: usize,
 ) -> [f32x4; COEFFICIENTS] {
     let mut lanes = [f32x4::ZERO; COEFFICIENTS];
-    for k in (0..COEFFICIENTS).step_by(WIDTH) {
-        let rows = series.map(|s| f32x4::from([s[k], s[k + 1], s[k + 2], s[k + 3]]));
+    for k in (0..order * (order + 4) + 3).step_by(WIDTH) {
+        let row = |of: usize| f32x4::from([series[of][k], series[of][k + 1], series[of][k + 2], series[of][k + 3]]);
+        let rows = [row(0), row(1), row(2), row(3)];
         lanes[k..k + WIDTH].copy_from_slice(&f32x4::transpose(rows));
     }
     let mut scale = weight;
-    for n in 1..5 {
+    for n in 1..order + 2 {
         lanes[n * n - 1..n * n + 2 * n].iter_mut().for_each(|c| *c *= scale);
         scale *= ratio;
     }

@@ -44,7 +44,9 @@ impl Place {
     /// The centre relative to those of four clusters, and their radii.
     #[inline(always)]
     pub fn relative_to(&self, balls: [&Ball; WIDTH]) -> ([f32x4; 3], f32x4) {
-        let [x, y, z, radius] = f32x4::transpose(balls.map(|b| f32x4::from(*b)));
+        let [a, b, c, d] = balls;
+        let rows = [f32x4::from(*a), f32x4::from(*b), f32x4::from(*c), f32x4::from(*d)];
+        let [x, y, z, radius] = f32x4::transpose(rows);
         let offset = |axis: usize, c: f32x4| (self.high[axis] - c) + self.low[axis];
         ([offset(0, x), offset(1, y), offset(2, z)], radius)
     }
@@ -62,9 +64,7 @@ fn near(frame: &Frame, p: Vec3) -> Vec3 {
 /// The queries of a block as the near and the far field want them.
 pub struct Block {
     pub queries: QueryBlock,
-    /// Positions relative to the block's centre, in the tree's unit frame.
-    pub local: [QueryLanes; GROUPS],
-    /// The same in units of the block's radius.
+    /// Positions relative to the block's centre, in units of its radius.
     pub scaled: [QueryLanes; GROUPS],
     /// Queries beyond the horizon, one bit each.
     pub beyond: u64,
@@ -78,10 +78,11 @@ impl Block {
             queries: QueryBlock {
                 positions: [center.to_array().map(f64x4::splat); GROUPS],
                 center,
+                scale: frame.scale,
+                reach: place.radius,
                 offsets: [[f32x4::ZERO; 3]; GROUPS],
                 groups,
             },
-            local: [[f32x4::ZERO; 3]; GROUPS],
             scaled: [[f32x4::ZERO; 3]; GROUPS],
             beyond: 0,
         };
@@ -89,12 +90,15 @@ impl Block {
         for (g, four) in points.chunks(WIDTH).enumerate() {
             let at = |k: usize| *four.get(k).unwrap_or(&center);
             let four = [at(0), at(1), at(2), at(3)];
-            let local = four.map(|p| near(frame, p) - place.center);
+            let local = |k: usize| near(frame, four[k]) - place.center;
+            let local = [local(0), local(1), local(2), local(3)];
             for axis in 0..3 {
-                block.queries.positions[g][axis] = f64x4::from(four.map(|p| p[axis]));
-                block.queries.offsets[g][axis] = f32x4::from(four.map(|p| (p[axis] - center[axis]) as f32));
-                block.local[g][axis] = f32x4::from(local.map(|p| p[axis] as f32));
-                block.scaled[g][axis] = block.local[g][axis] * inverse;
+                let [a, b, c, d] = &four;
+                block.queries.positions[g][axis] = f64x4::from([a[axis], b[axis], c[axis], d[axis]]);
+                let [a, b, c, d] = &local;
+                let offset = [a[axis] as f32, b[axis] as f32, c[axis] as f32, d[axis] as f32];
+                block.queries.offsets[g][axis] = f32x4::from(offset);
+                block.scaled[g][axis] = f32x4::from(offset) * inverse;
             }
             for (k, p) in four.into_iter().enumerate() {
                 let is_beyond = frame.local(p).abs().max_element() > HORIZON;

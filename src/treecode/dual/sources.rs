@@ -12,8 +12,11 @@ pub struct QueryBlock {
     pub positions: [[f64x4; 3]; GROUPS],
     /// A point amid the queries.
     pub center: Vec3,
-    /// Positions relative to the centre.
+    /// Positions relative to the centre, times `scale`, which makes the sources about as large as 1.
     pub offsets: [QueryLanes; GROUPS],
+    pub scale: f64,
+    /// A bound of the lengths of the offsets.
+    pub reach: f32,
     /// Groups with a query, the first ones.
     pub groups: usize,
 }
@@ -24,6 +27,8 @@ pub trait Sources: Sync {
     type Sum: Copy + Send + Sync;
     /// Whether all three corners of every source are the same.
     const POINTS: bool;
+    /// A bound of the error that [`Sources::add`] makes for one source at one query.
+    const ROUNDING: f64;
 
     fn len(&self) -> usize;
     fn is_empty(&self) -> bool {
@@ -45,6 +50,7 @@ pub trait Sources: Sync {
 impl<S: Sources + Send> Sources for Arc<S> {
     type Sum = S::Sum;
     const POINTS: bool = S::POINTS;
+    const ROUNDING: f64 = S::ROUNDING;
 
     #[inline]
     fn len(&self) -> usize {

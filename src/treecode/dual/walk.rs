@@ -198,7 +198,7 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
 
     /// Adds the fields of the pending clusters: of those that turn out far from the whole block to `space.far` for later,
     /// of those far from some groups of queries by their multipole series to `far`, of the rest singly to `sums`. Answers
-    /// a bound of the error of the series.
+    /// a bound of the error made.
     fn near(
         &self,
         block: &Block,
@@ -232,6 +232,7 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
             }
             if link.is_leaf() {
                 self.sources.add(&self.clusters.items[link.range()], &block.queries, rest, sums);
+                error += S::ROUNDING * link.range().len() as f64;
             } else {
                 near.extend(link.range().rev().map(|c| (c as u32, rest)));
             }
@@ -250,7 +251,7 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         let distance = self.accuracy.beta as f32 * radius;
         let (center, square) = (center.map(f32x4::splat), f32x4::splat(distance * distance));
         bits(wanted)
-            .filter(|&g| Multipole::is_farther(&center, &block.local[g], square))
+            .filter(|&g| Multipole::is_farther(&center, &block.queries.offsets[g], square))
             .fold(0, |groups, g| groups | 1 << g)
     }
 
@@ -266,10 +267,10 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         let (series, radius) = (&self.clusters.series[cluster], self.clusters.balls[cluster][3]);
         let multipole = Multipole::new(series, center, radius, self.accuracy.order);
         match self.accuracy.order {
-            0 => bits(groups).for_each(|g| far[g] += multipole.at::<0>(&block.local[g])),
-            1 => bits(groups).for_each(|g| far[g] += multipole.at::<1>(&block.local[g])),
-            2 => bits(groups).for_each(|g| far[g] += multipole.at::<2>(&block.local[g])),
-            _ => bits(groups).for_each(|g| far[g] += multipole.at::<3>(&block.local[g])),
+            0 => bits(groups).for_each(|g| far[g] += multipole.at::<0>(&block.queries.offsets[g])),
+            1 => bits(groups).for_each(|g| far[g] += multipole.at::<1>(&block.queries.offsets[g])),
+            2 => bits(groups).for_each(|g| far[g] += multipole.at::<2>(&block.queries.offsets[g])),
+            _ => bits(groups).for_each(|g| far[g] += multipole.at::<3>(&block.queries.offsets[g])),
         }
     }
 
