@@ -1,12 +1,14 @@
 //! Clusters of sources with their multipole moments, bottom-up over a [`Bvh`].
-use super::Sources;
+use super::local::sum_of_lanes;
 use super::moments::{COEFFICIENTS, Moments};
+use super::{Sources, WIDTH};
 use crate::bvh::{Bvh, Child};
 use crate::math::{Aabb, Vec3};
 use crate::treecode::frame::Frame;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::ops::Range;
+use wide::f32x4;
 
 /// Where a cluster is, in the tree's unit frame: x, y, z of the centre, and the distance of the farthest corner of a
 /// source from it, rounded up.
@@ -148,20 +150,20 @@ impl Part {
         let (mut area, mut weighted, mut middle) = (0.0, Vec3::ZERO, Aabb::EMPTY);
         for &i in members {
             let own = scale * sources.area_vector(i as usize).length();
-            let corners = sources.corners(i as usize).map(|c| frame.local(c));
+            let corners = local_corners(sources, i, frame);
             area += own;
             weighted += own / 3.0 * (corners[0] + corners[1] + corners[2]);
-            middle = corners.into_iter().fold(middle, Aabb::including);
+            middle = middle.including(corners[0]).including(corners[1]).including(corners[2]);
         }
         let center = narrowed(area, weighted, middle.center());
         let mut moments = Moments::ZERO;
         for &i in members {
             let area_vector = scale * sources.area_vector(i as usize);
-            let corners = sources.corners(i as usize);
+            let [a, b, c] = local_corners(sources, i, frame);
             if S::POINTS {
-                moments.add_point(frame.local(corners[0]) - center, area_vector);
+                moments.add_point(a - center, area_vector);
             } else {
-                moments.add_triangle(corners.map(|c| frame.local(c) - center), area_vector);
+                moments.add_triangle([a - center, b - center, c - center], area_vector);
             }
         }
         Part { area, center, moments }
@@ -202,6 +204,12 @@ impl Part {
     }
 }
 
+#[inline(always)]
+fn local_corners<S: Sources>(sources: &S, index: u32, frame: &Frame) -> [Vec3; 3] {
+    let [a, b, c] = sources.corners(index as usize);
+    [frame.local(a), frame.local(b), frame.local(c)]
+}
+
 /// A centre that is exact in 32-bit floats, so that storing it rounds nothing.
 fn narrowed(area: f64, weighted: Vec3, otherwise: Vec3) -> Vec3 {
     let center = if area > 0.0 { weighted / area } else { otherwise };
@@ -235,21 +243,24 @@ impl Corners {
     /// fourth power of the distance. A power is convex, so that the mean over the corners is no less than that over the
     /// triangle.
     fn spread(&self, span: &Range<usize>, center: Vec3) -> (f32, f32, f32) {
-        let [x, y, z] = center.to_array().map(|c| c as f32);
+        let [x, y, z] = center.to_array().map(|c| f32x4::splat(c as f32));
         let corners = &self.corners[span.start * self.for_each..span.end * self.for_each];
-        const LANES: usize = 4;
-        let (mut largest, mut squares, mut fourths) = ([0.0f32; LANES], [0.0f32; LANES], [0.0f32; LANES]);
-        for group in corners.chunks(LANES) {
-            for (k, corner) in group.iter().enumerate() {
-                let (dx, dy, dz) = (corner[0] - x, corner[1] - y, corner[2] - z);
-                let square = dx * dx + dy * dy + dz * dz;
-                largest[k] = largest[k].max(square);
-                squares[k] += corner[3] * square;
-                fourths[k] += corner[3] * (square * square);
-            }
+        let (mut largest, mut squares, mut fourths) = (f32x4::ZERO, f32x4::ZERO, f32x4::ZERO);
+        for group in corners.chunks(WIDTH) {
+            // Repeating a corner without its area changes nothing.
+            let at = |k: usize| {
+                let [x, y, z, share] = *group.get(k).unwrap_or(&group[0]);
+                f32x4::from([x, y, z, if k < group.len() { share } else { 0.0 }])
+            };
+            let [xs, ys, zs, shares] = f32x4::transpose([at(0), at(1), at(2), at(3)]);
+            let (dx, dy, dz) = (xs - x, ys - y, zs - z);
+            let square = dx * dx + dy * dy + dz * dz;
+            largest = largest.fast_max(square);
+            squares += shares * square;
+            fourths += shares * (square * square);
         }
-        let farthest = largest.into_iter().fold(0.0, f32::max).sqrt();
+        let farthest = largest.to_array().into_iter().fold(0.0, f32::max).sqrt();
         let radius = farthest * ROUND_UP as f32 + CORNER_ROUNDING as f32;
-        (radius, squares.iter().sum(), fourths.iter().sum())
+        (radius, sum_of_lanes(squares) as f32, sum_of_lanes(fourths) as f32)
     }
 }

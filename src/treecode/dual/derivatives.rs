@@ -17,13 +17,15 @@ const fn row(n: usize, z: usize) -> usize {
     start(n) + [0, n + 1, 2 * n + 1][z]
 }
 
-const ENTRIES: usize = start(TOP + 1);
+/// More than `start(TOP + 1)`: any place that fits in 8 bits, with the longest row behind it, is inside, which saves checks.
+const ENTRIES: usize = 256 + MAX_DEGREE + 1;
 /// Zeros before and after each row, so that the recursion needs no special cases.
 const MARGIN: usize = 2;
 const ROW: usize = TOP + 1 + 2 * MARGIN;
 
 /// Derivatives D_γ of 1/r at a unit vector, γ of degree 0, 1 and 2 in z, with the space to compute them.
 pub struct Derivatives {
+    /// With 2 in z, the negatives.
     table: [f32x4; ENTRIES],
     /// E_γ below, of degree 0 and 1 in z.
     plain: [[f32x4; ROW]; TOP + 1],
@@ -82,61 +84,73 @@ impl Default for Derivatives {
 }
 
 impl Derivatives {
-    /// Computes all derivatives up to order `top` at the unit vectors `u`.
-    #[inline(always)]
-    pub fn compute<const TOP: usize>(&mut self, [x, y, z]: [f32x4; 3]) {
+    /// Computes all derivatives up to order `top`, 9 at most, at the unit vectors `u`.
+    pub fn compute(&mut self, u: [f32x4; 3], top: usize) {
         let one = f32x4::splat(1.0);
         self.plain[0][MARGIN] = one;
         self.table[0] = one;
-        for n in 1..=TOP {
-            let kappa = f32x4::splat(KAPPA[n]);
-            let (below, from) = self.plain.split_at_mut(n);
-            let (below_z, from_z) = self.times_z.split_at_mut(n);
-            let (first, second) = (&below[n - 1], &below[n.saturating_sub(2)]);
-            let (first_z, second_z) = (&below_z[n - 1], &below_z[n.saturating_sub(2)]);
-            let (rows, scale, scale_z) =
-                (&mut self.table[start(n)..], &SCALE[2 * n][..n + 1], &SCALE[2 * n + 1][..n]);
-            let (row_0, rows) = rows.split_at_mut(n + 1);
-            let (row_1, row_2) = rows.split_at_mut(n);
-            // Slices of one length: the loops need no checks. Entry a lies at a + MARGIN of a row.
-            let (plain, f_1, f_0) = (&mut from[0][2..n + 3], &first[1..n + 2], &first[2..n + 3]);
-            let (s_2, s_0) = (&second[..n + 1], &second[2..n + 3]);
-            for a in 0..n + 1 {
-                let e = (x * f_1[a] + y * f_0[a]) - kappa * (s_2[a] + s_0[a]);
-                plain[a] = e;
-                row_0[a] = e * scale[a];
-            }
-            let (times_z, g_1, g_0) = (&mut from_z[0][2..n + 2], &first_z[1..n + 1], &first_z[2..n + 2]);
-            let (s_2, s_0) = (&second_z[..n], &second_z[2..n + 2]);
-            for a in 0..n {
-                let e = (x * g_1[a] + y * g_0[a] + z * f_0[a]) - kappa * (s_2[a] + s_0[a]);
-                times_z[a] = e;
-                row_1[a] = e * scale_z[a];
-            }
-            for a in 0..n - 1 {
-                row_2[a] = -(row_0[a + 2] + row_0[a]);
+        for n in 1..=top {
+            match n {
+                1 => self.compute_order::<1>(u),
+                2 => self.compute_order::<2>(u),
+                3 => self.compute_order::<3>(u),
+                4 => self.compute_order::<4>(u),
+                5 => self.compute_order::<5>(u),
+                6 => self.compute_order::<6>(u),
+                7 => self.compute_order::<7>(u),
+                8 => self.compute_order::<8>(u),
+                _ => self.compute_order::<9>(u),
             }
         }
     }
 
+    /// The derivatives of order `N` from those of the two orders below. A function for each order, so that its loops are
+    /// unrolled.
+    #[inline(never)]
+    fn compute_order<const N: usize>(&mut self, [x, y, z]: [f32x4; 3]) {
+        let kappa = f32x4::splat(KAPPA[N]);
+        let (below, from) = self.plain.split_at_mut(N);
+        let (below_z, from_z) = self.times_z.split_at_mut(N);
+        let (first, second) = (&below[N - 1], &below[N.saturating_sub(2)]);
+        let (first_z, second_z) = (&below_z[N - 1], &below_z[N.saturating_sub(2)]);
+        let (rows, scale) = (&mut self.table[start(N)..start(N + 1)], &SCALE[2 * N..2 * N + 2]);
+        for a in 0..N + 1 {
+            let i = a + MARGIN;
+            let e = (x * first[i - 1] + y * first[i]) - kappa * (second[i - 2] + second[i]);
+            from[0][i] = e;
+            rows[a] = e * scale[0][a];
+        }
+        for a in 0..N {
+            let i = a + MARGIN;
+            let e = (x * first_z[i - 1] + y * first_z[i] + z * first[i])
+                - kappa * (second_z[i - 2] + second_z[i]);
+            from_z[0][i] = e;
+            rows[N + 1 + a] = e * scale[1][a];
+        }
+        for a in 0..N - 1 {
+            rows[2 * N + 1 + a] = rows[a + 2] + rows[a];
+        }
+    }
+
     /// Adds s^|β| Σ A_γ D_(γ+β) to `sums`, for all β up to `degree` with 0 or 1 in z, A_γ up to degree `order` + 1.
-    #[inline(always)]
-    pub fn add_taylor<const ORDER: usize>(
+    pub fn add_taylor(
         &self,
+        order: usize,
         degree: usize,
         coefficients: &[f32x4; COEFFICIENTS],
         s: f32x4,
         sums: &mut [f32x4; REDUCED],
     ) {
+        let coefficients = &coefficients[..place(order + 2, 0, 0) - 1];
         let mut power = f32x4::splat(1.0);
         for m in 0..=degree {
             match m {
-                0 => self.add_degree::<ORDER, 0, 1>(coefficients, power, sums),
-                1 => self.add_degree::<ORDER, 1, 2>(coefficients, power, sums),
-                2 => self.add_degree::<ORDER, 2, 3>(coefficients, power, sums),
-                3 => self.add_degree::<ORDER, 3, 4>(coefficients, power, sums),
-                4 => self.add_degree::<ORDER, 4, 5>(coefficients, power, sums),
-                _ => self.add_degree::<ORDER, 5, 6>(coefficients, power, sums),
+                0 => self.add_degree::<0, 1>(coefficients, power, sums),
+                1 => self.add_degree::<1, 2>(coefficients, power, sums),
+                2 => self.add_degree::<2, 3>(coefficients, power, sums),
+                3 => self.add_degree::<3, 4>(coefficients, power, sums),
+                4 => self.add_degree::<4, 5>(coefficients, power, sums),
+                _ => self.add_degree::<5, 6>(coefficients, power, sums),
             }
             power *= s;
         }
@@ -144,30 +158,53 @@ impl Derivatives {
 
     /// Degree `M` of the above; `N` = `M` + 1. The sums of one degree stay in registers.
     #[inline(never)]
-    fn add_degree<const ORDER: usize, const M: usize, const N: usize>(
+    fn add_degree<const M: usize, const N: usize>(
         &self,
-        coefficients: &[f32x4; COEFFICIENTS],
+        coefficients: &[f32x4],
         scale: f32x4,
         sums: &mut [f32x4; REDUCED],
     ) {
         let (mut plain, mut times_z) = ([f32x4::ZERO; N], [f32x4::ZERO; M]);
-        let mut coefficient = coefficients.iter();
-        for n in 1..=ORDER + 1 {
-            for z in 0..2 {
-                let above = &self.table[row(n + M, z)..][..n + 1 - z + M];
-                let above_z = &self.table[row(n + M, z + 1)..][..n - z + M];
-                for a in 0..n + 1 - z {
-                    let c = *coefficient.next().expect("there is a coefficient for each monomial");
-                    let (d, d_z) = (&above[a..a + N], &above_z[a..a + M]);
-                    plain.iter_mut().zip(d).for_each(|(sum, d)| *sum += c * *d);
-                    times_z.iter_mut().zip(d_z).for_each(|(sum, d)| *sum += c * *d);
-                }
+        for (c, [at, at_z, is_in_z]) in coefficients.iter().zip(&PLACES[M]) {
+            let (d, d_z) = (&self.table[*at as usize..][..N], &self.table[*at_z as usize..][..M]);
+            plain.iter_mut().zip(d).for_each(|(sum, d)| *sum += *c * *d);
+            // z² = −x² − y²: the table has the negative.
+            if *is_in_z == 0 {
+                times_z.iter_mut().zip(d_z).for_each(|(sum, d)| *sum += *c * *d);
+            } else {
+                times_z.iter_mut().zip(d_z).for_each(|(sum, d)| *sum -= *c * *d);
             }
         }
         let terms = plain.into_iter().chain(times_z);
         sums[place(M, 0, 0)..].iter_mut().zip(terms).for_each(|(sum, term)| *sum += scale * term);
     }
 }
+
+/// For Taylor coefficients of degree M, and for each coefficient A_γ: where D_(γ+β) lies for the first β without z, for the
+/// first with z (the others follow), and whether γ has z.
+const PLACES: [[[u8; 3]; COEFFICIENTS]; MAX_DEGREE + 1] = {
+    let mut places = [[[0; 3]; COEFFICIENTS]; MAX_DEGREE + 1];
+    let mut m = 0;
+    while m <= MAX_DEGREE {
+        let (mut n, mut k) = (1, 0);
+        while n <= MAX_ORDER + 1 {
+            let mut z = 0;
+            while z < 2 {
+                let mut a = 0;
+                while a + z <= n {
+                    let [at, at_z] = [row(n + m, z) + a, row(n + m, z + 1) + a];
+                    places[m][k] = [at as u8, at_z as u8, z as u8];
+                    a += 1;
+                    k += 1;
+                }
+                z += 1;
+            }
+            n += 1;
+        }
+        m += 1;
+    }
+    places
+};
 
 /// Taylor coefficients of degrees 0 to 5 with 0 or 1 in z.
 pub const REDUCED: usize = place(MAX_DEGREE + 1, 0, 0);
@@ -226,11 +263,12 @@ mod tests {
     fn derivatives_equal_the_classical_recursion() {
         let u = [0.36f64, 0.48, -0.8];
         let mut derivatives = Derivatives::default();
-        derivatives.compute::<TOP>(u.map(|x| f32x4::splat(x as f32)));
+        derivatives.compute(u.map(|x| f32x4::splat(x as f32)), TOP);
         for n in 0..=TOP {
             for z in 0..=2.min(n) {
                 for a in 0..=n - z {
-                    let value = f64::from(derivatives.table[row(n, z) + a].to_array()[2]);
+                    let sign = if z == 2 { -1.0 } else { 1.0 };
+                    let value = sign * f64::from(derivatives.table[row(n, z) + a].to_array()[2]);
                     let exact = classical(u, [a as i32, (n - z - a) as i32, z as i32]);
                     // Derivatives of order n are of the order of n!.
                     assert!((value - exact).abs() < 1e-6 * factorial(n), "{n} {z} {a}: {value} {exact}");

@@ -63,7 +63,9 @@ impl FarFields {
         let coefficients = weighted(rows, area * inverse * inverse, radius * inverse, accuracy.order);
         let reach = f32x4::splat(place.radius);
         let unit = [offset[0] * inverse, offset[1] * inverse, offset[2] * inverse];
-        add_taylor(&mut self.derivatives, unit, &coefficients, reach * inverse, accuracy, sums);
+        self.derivatives.compute(unit, accuracy.order + 1 + accuracy.degree);
+        let s = reach * inverse;
+        self.derivatives.add_taylor(accuracy.order, accuracy.degree, &coefficients, s, sums);
 
         let (inner, outer) = (distance - reach, distance - radius);
         let left_out = bounds::multipole_tail(area, f32x4::from(spread), radius, inner, accuracy.order)
@@ -93,28 +95,4 @@ fn weighted(
         scale *= ratio;
     }
     lanes
-}
-
-fn add_taylor(
-    derivatives: &mut Derivatives,
-    unit: [f32x4; 3],
-    coefficients: &[f32x4; COEFFICIENTS],
-    s: f32x4,
-    accuracy: &DualAccuracy,
-    sums: &mut [f32x4; REDUCED],
-) {
-    match accuracy.order + 1 + accuracy.degree {
-        ..=4 => derivatives.compute::<4>(unit),
-        5 => derivatives.compute::<5>(unit),
-        6 => derivatives.compute::<6>(unit),
-        7 => derivatives.compute::<7>(unit),
-        8 => derivatives.compute::<8>(unit),
-        _ => derivatives.compute::<9>(unit),
-    }
-    match accuracy.order {
-        0 => derivatives.add_taylor::<0>(accuracy.degree, coefficients, s, sums),
-        1 => derivatives.add_taylor::<1>(accuracy.degree, coefficients, s, sums),
-        2 => derivatives.add_taylor::<2>(accuracy.degree, coefficients, s, sums),
-        _ => derivatives.add_taylor::<3>(accuracy.degree, coefficients, s, sums),
-    }
 }

@@ -135,20 +135,24 @@ impl Local {
 
     /// Values at queries, four in each group, given in units of the block's radius (L2P).
     pub fn values(&self, queries: &[QueryLanes], degree: usize, values: &mut [f32x4]) {
+        match degree {
+            ..=2 => self.values_of::<2>(queries, values),
+            3 => self.values_of::<3>(queries, values),
+            4 => self.values_of::<4>(queries, values),
+            _ => self.values_of::<5>(queries, values),
+        }
+    }
+
+    fn values_of<const DEGREE: usize>(&self, queries: &[QueryLanes], values: &mut [f32x4]) {
         let terms = self.terms.map(|t| f32x4::splat(t as f32));
         let zero = f32x4::ZERO;
         for ([x, y, z], value) in queries.iter().zip(values) {
-            let mut in_z = zero;
-            for c in (0..=degree).rev() {
-                let mut in_y = zero;
-                for b in (0..=degree - c).rev() {
-                    let line = &terms[LINES[c][b]..][..=degree - b - c];
-                    let in_x = line.iter().rev().fold(zero, |sum, term| sum * *x + *term);
-                    in_y = in_y * *y + in_x;
-                }
-                in_z = in_z * *z + in_y;
-            }
-            *value += in_z;
+            let in_x = |b: usize, c: usize| {
+                let line = &terms[LINES[c][b]..][..=DEGREE - b - c];
+                line.iter().rev().fold(zero, |sum, term| sum * *x + *term)
+            };
+            let in_y = |c: usize| (0..=DEGREE - c).rev().fold(zero, |sum, b| sum * *y + in_x(b, c));
+            *value += (0..=DEGREE).rev().fold(zero, |sum, c| sum * *z + in_y(c));
         }
     }
 }

@@ -5,7 +5,8 @@
 //! polynomial Pₙ, scaled to leading coefficient 1.
 use super::QueryLanes;
 use super::clusters::Series;
-use super::moments::MAX_ORDER;
+use super::harmonic::place;
+use super::moments::COEFFICIENTS;
 use wide::f32x4;
 
 /// Coefficients of one cluster's field for queries near a point.
@@ -14,45 +15,45 @@ pub struct Multipole {
     center: QueryLanes,
     radius: f32x4,
     area: f32x4,
-    /// For each m: factors of cos mφ, then of sin mφ, of each degree n = max(m, 1), …; ordered by m, then n.
-    cosines: [[f32x4; MAX_ORDER + 1]; MAX_ORDER + 2],
-    sines: [[f32x4; MAX_ORDER + 1]; MAX_ORDER + 2],
+    /// Factors of q_nm cos mφ and q_nm sin mφ in the order of [`factor`].
+    factors: [f32x4; COEFFICIENTS],
+}
+
+/// Place of the factor for n and m: of the cosine, m = 0 … n, or, `sine` places later, of the sine.
+const fn factor(n: usize, m: usize, sine: bool) -> usize {
+    n * n - 1 + m + if sine { n } else { 0 }
 }
 
 impl Multipole {
+    #[inline]
     pub fn new(series: &Series, center: [f32; 3], radius: f32, order: usize) -> Multipole {
-        let mut rows = [[[0.0f32; MAX_ORDER + 1]; MAX_ORDER + 2]; 2];
-        let [cosines, sines] = &mut rows;
+        let mut factors = [0.0f32; COEFFICIENTS];
         let c = &series.coefficients;
-        let mut set = |sign: f32, n: usize, cosine: &[f32], sine: &[f32]| {
-            cosine.iter().enumerate().for_each(|(m, value)| cosines[m][n - 1] = sign * value);
-            sine.iter().enumerate().for_each(|(m, value)| sines[m][n - 1] = sign * value);
-        };
-        set(-1.0, 1, &[c[2], c[1]], &[0.0, c[0]]);
+        factors[0..3].copy_from_slice(&[-c[2], -c[1], -c[0]]);
         if order >= 1 {
-            let (even_cosine, even_sine) = quadratic([c[3], c[4], c[5]]);
-            set(3.0, 2, &[even_cosine[0], c[7], even_cosine[1]], &[0.0, c[6], even_sine]);
+            let [c0, c2, s2] = quadratic([c[3], c[4], c[5]]);
+            set(&mut factors[3..8], 3.0, [c0, c[7], c2, c[6], s2]);
         }
         if order >= 2 {
-            let (odd_cosine, odd_sine) = cubic([c[8], c[9], c[10], c[11]]);
-            let (even_cosine, even_sine) = quadratic([c[12], c[13], c[14]]);
-            let cosine = [even_cosine[0], odd_cosine[0], even_cosine[1], odd_cosine[1]];
-            set(-15.0, 3, &cosine, &[0.0, odd_sine[0], even_sine, odd_sine[1]]);
+            let [c1, c3, s1, s3] = cubic([c[8], c[9], c[10], c[11]]);
+            let [c0, c2, s2] = quadratic([c[12], c[13], c[14]]);
+            set(&mut factors[8..15], -15.0, [c0, c1, c2, c3, s1, s2, s3]);
         }
         if order >= 3 {
-            let (even_cosine, even_sine) = quartic([c[15], c[16], c[17], c[18], c[19]]);
-            let (odd_cosine, odd_sine) = cubic([c[20], c[21], c[22], c[23]]);
-            let cosine = [even_cosine[0], odd_cosine[0], even_cosine[1], odd_cosine[1], even_cosine[2]];
-            set(105.0, 4, &cosine, &[0.0, odd_sine[0], even_sine[0], odd_sine[1], even_sine[1]]);
+            let [c0, c2, c4, s2, s4] = quartic([c[15], c[16], c[17], c[18], c[19]]);
+            let [c1, c3, s1, s3] = cubic([c[20], c[21], c[22], c[23]]);
+            set(&mut factors[15..24], 105.0, [c0, c1, c2, c3, c4, s1, s2, s3, s4]);
         }
-        let [cosines, sines] = rows.map(|r| r.map(|m| m.map(f32x4::splat)));
-        Multipole {
-            center: center.map(f32x4::splat),
+        let [x, y, z] = center;
+        let mut multipole = Multipole {
+            center: [f32x4::splat(x), f32x4::splat(y), f32x4::splat(z)],
             radius: f32x4::splat(radius),
             area: f32x4::splat(series.area),
-            cosines,
-            sines,
-        }
+            factors: [f32x4::ZERO; COEFFICIENTS],
+        };
+        let used = place(order + 2, 0, 0) - 1;
+        multipole.factors.iter_mut().zip(&factors[..used]).for_each(|(lanes, f)| *lanes = f32x4::splat(*f));
+        multipole
     }
 
     /// The field at four queries, relative to the same point, of order `ORDER`.
@@ -65,45 +66,46 @@ impl Multipole {
         let inverse = square.sqrt() * inverse_square;
         let [x, y, z] = offset.map(|c| c * inverse);
         let t = self.radius * inverse;
-        let (c, s) = (&self.cosines, &self.sines);
+        let c = |m: usize, n: usize| self.factors[factor(n, m, false)];
+        let s = |m: usize, n: usize| self.factors[factor(n, m, true)];
         // For each m the sum over n of t^(n−1) q_nm(z) times the coefficients, by Horner's scheme in t.
-        let mut zero = c[0][0] * z;
-        let (mut cosine_1, mut sine_1) = (c[1][0], s[1][0]);
+        let mut zero = c(0, 1) * z;
+        let (mut cosine_1, mut sine_1) = (c(1, 1), s(1, 1));
         let mut sum = f32x4::ZERO;
         if ORDER >= 1 {
             let tt = t * t;
             let (tz, zz) = (t * z, z * z);
             let q20 = (zz - splat(1.0 / 3.0)) * t;
-            zero += c[0][1] * q20;
-            cosine_1 += c[1][1] * tz;
-            sine_1 += s[1][1] * tz;
+            zero += c(0, 2) * q20;
+            cosine_1 += c(1, 2) * tz;
+            sine_1 += s(1, 2) * tz;
             let (xx_yy, xy) = (x * x - y * y, (x + x) * y);
-            let (mut cosine_2, mut sine_2) = (c[2][1] * t, s[2][1] * t);
+            let (mut cosine_2, mut sine_2) = (c(2, 2) * t, s(2, 2) * t);
             if ORDER >= 2 {
                 let (q30, q31) = ((zz - splat(0.6)) * (tt * z), (zz - splat(0.2)) * tt);
                 let ttz = t * tz;
-                zero += c[0][2] * q30;
-                cosine_1 += c[1][2] * q31;
-                sine_1 += s[1][2] * q31;
-                cosine_2 += c[2][2] * ttz;
-                sine_2 += s[2][2] * ttz;
+                zero += c(0, 3) * q30;
+                cosine_1 += c(1, 3) * q31;
+                sine_1 += s(1, 3) * q31;
+                cosine_2 += c(2, 3) * ttz;
+                sine_2 += s(2, 3) * ttz;
                 let (re_3, im_3) = (xx_yy * x - xy * y, xx_yy * y + xy * x);
-                let (mut cosine_3, mut sine_3) = (c[3][2] * tt, s[3][2] * tt);
+                let (mut cosine_3, mut sine_3) = (c(3, 3) * tt, s(3, 3) * tt);
                 if ORDER >= 3 {
                     let ttt = tt * t;
                     let tttz = ttt * z;
                     let q40 = (zz * (zz - splat(6.0 / 7.0)) + splat(3.0 / 35.0)) * ttt;
                     let q41 = (zz - splat(3.0 / 7.0)) * tttz;
                     let q42 = (zz - splat(1.0 / 7.0)) * ttt;
-                    zero += c[0][3] * q40;
-                    cosine_1 += c[1][3] * q41;
-                    sine_1 += s[1][3] * q41;
-                    cosine_2 += c[2][3] * q42;
-                    sine_2 += s[2][3] * q42;
-                    cosine_3 += c[3][3] * tttz;
-                    sine_3 += s[3][3] * tttz;
+                    zero += c(0, 4) * q40;
+                    cosine_1 += c(1, 4) * q41;
+                    sine_1 += s(1, 4) * q41;
+                    cosine_2 += c(2, 4) * q42;
+                    sine_2 += s(2, 4) * q42;
+                    cosine_3 += c(3, 4) * tttz;
+                    sine_3 += s(3, 4) * tttz;
                     let (re_4, im_4) = (xx_yy * xx_yy - xy * xy, (xx_yy + xx_yy) * xy);
-                    sum += (c[4][3] * re_4 + s[4][3] * im_4) * ttt;
+                    sum += (c(4, 4) * re_4 + s(4, 4) * im_4) * ttt;
                 }
                 sum += cosine_3 * re_3 + sine_3 * im_3;
             }
@@ -122,22 +124,26 @@ impl Multipole {
     }
 }
 
-// The monomials x^a y^(n−a), a = 0 … n, in Re ξ^m and Im ξ^m, m of the parity of n.
-
-fn quadratic([yy, xy, xx]: [f32; 3]) -> ([f32; 2], f32) {
-    ([-0.5 * (xx + yy), 0.5 * (xx - yy)], 0.5 * xy)
+fn set<const N: usize>(factors: &mut [f32], scale: f32, values: [f32; N]) {
+    factors.iter_mut().zip(values).for_each(|(factor, value)| *factor = scale * value);
 }
 
-fn cubic([yyy, xyy, xxy, xxx]: [f32; 4]) -> ([f32; 2], [f32; 2]) {
-    (
-        [-0.75 * xxx - 0.25 * xyy, 0.25 * (xxx - xyy)],
-        [-0.25 * xxy - 0.75 * yyy, 0.25 * (xxy - yyy)],
-    )
+// Homogeneous polynomials in x and y as factors of Re ξ^m z^(n−m), then of Im ξ^m z^(n−m), m of the parity of n.
+
+fn quadratic([yy, xy, xx]: [f32; 3]) -> [f32; 3] {
+    [-0.5 * (xx + yy), 0.5 * (xx - yy), 0.5 * xy]
 }
 
-fn quartic([y4, xy3, x2y2, x3y, x4]: [f32; 5]) -> ([f32; 3], [f32; 2]) {
-    (
-        [0.375 * (x4 + y4) + 0.125 * x2y2, 0.5 * (y4 - x4), 0.125 * (x4 + y4 - x2y2)],
-        [-0.25 * (x3y + xy3), 0.125 * (x3y - xy3)],
-    )
+fn cubic([yyy, xyy, xxy, xxx]: [f32; 4]) -> [f32; 4] {
+    [-0.75 * xxx - 0.25 * xyy, 0.25 * (xxx - xyy), -0.25 * xxy - 0.75 * yyy, 0.25 * (xxy - yyy)]
+}
+
+fn quartic([y4, xy3, x2y2, x3y, x4]: [f32; 5]) -> [f32; 5] {
+    [
+        0.375 * (x4 + y4) + 0.125 * x2y2,
+        0.5 * (y4 - x4),
+        0.125 * (x4 + y4 - x2y2),
+        -0.25 * (x3y + xy3),
+        0.125 * (x3y - xy3),
+    ]
 }

@@ -70,22 +70,29 @@ pub struct Block {
     pub beyond: u64,
 }
 
-impl Block {
-    pub fn new(points: &[Vec3], bounds: &Aabb, place: &Place, frame: &Frame) -> Block {
-        let center = bounds.center();
-        let groups = points.len().div_ceil(WIDTH);
-        let mut block = Block {
-            queries: QueryBlock {
-                positions: [center.to_array().map(f64x4::splat); GROUPS],
-                center,
-                scale: frame.scale,
-                reach: place.radius,
-                offsets: [[f32x4::ZERO; 3]; GROUPS],
-                groups,
-            },
-            scaled: [[f32x4::ZERO; 3]; GROUPS],
-            beyond: 0,
+impl Default for Block {
+    fn default() -> Self {
+        let queries = QueryBlock {
+            positions: [[f64x4::ZERO; 3]; GROUPS],
+            center: Vec3::ZERO,
+            offsets: [[f32x4::ZERO; 3]; GROUPS],
+            scale: 1.0,
+            reach: 0.0,
+            groups: 0,
         };
+        Block { queries, scaled: [[f32x4::ZERO; 3]; GROUPS], beyond: 0 }
+    }
+}
+
+impl Block {
+    /// Takes the queries of another block. Lanes without a query are put in the middle.
+    pub fn set(&mut self, points: &[Vec3], bounds: &Aabb, place: &Place, frame: &Frame) {
+        let center = bounds.center();
+        self.queries.center = center;
+        self.queries.scale = frame.scale;
+        self.queries.reach = place.radius;
+        self.queries.groups = points.len().div_ceil(WIDTH);
+        self.beyond = 0;
         let inverse = f32x4::splat(1.0 / place.radius);
         for (g, four) in points.chunks(WIDTH).enumerate() {
             let at = |k: usize| *four.get(k).unwrap_or(&center);
@@ -94,18 +101,17 @@ impl Block {
             let local = [local(0), local(1), local(2), local(3)];
             for axis in 0..3 {
                 let [a, b, c, d] = &four;
-                block.queries.positions[g][axis] = f64x4::from([a[axis], b[axis], c[axis], d[axis]]);
+                self.queries.positions[g][axis] = f64x4::from([a[axis], b[axis], c[axis], d[axis]]);
                 let [a, b, c, d] = &local;
                 let offset = [a[axis] as f32, b[axis] as f32, c[axis] as f32, d[axis] as f32];
-                block.queries.offsets[g][axis] = f32x4::from(offset);
-                block.scaled[g][axis] = f32x4::from(offset) * inverse;
+                self.queries.offsets[g][axis] = f32x4::from(offset);
+                self.scaled[g][axis] = f32x4::from(offset) * inverse;
             }
             for (k, p) in four.into_iter().enumerate() {
                 let is_beyond = frame.local(p).abs().max_element() > HORIZON;
-                block.beyond |= u64::from(is_beyond) << (WIDTH * g + k);
+                self.beyond |= u64::from(is_beyond) << (WIDTH * g + k);
             }
         }
-        block
     }
 
     /// One bit for each group.

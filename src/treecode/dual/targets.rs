@@ -63,6 +63,8 @@ pub struct LatticeTargets {
     lattice: Lattice,
     /// Samples along the axes of a block of [`BLOCK`].
     unit: [usize; 3],
+    /// The samples of such a block in Morton order.
+    order: [[u8; 3]; BLOCK],
 }
 
 /// Samples of a lattice: the first and the one after the last along each axis, in units of blocks.
@@ -71,7 +73,7 @@ pub type Cells = [Range<usize>; 3];
 impl LatticeTargets {
     pub fn new(lattice: &Lattice) -> LatticeTargets {
         let unit = if lattice.counts[2] == 1 { [8, 8, 1] } else { [4; 3] };
-        LatticeTargets { lattice: *lattice, unit }
+        LatticeTargets { lattice: *lattice, unit, order: order_within(unit) }
     }
 
     /// The samples of a block.
@@ -127,9 +129,9 @@ impl Targets for LatticeTargets {
         let mut give = |s: [usize; 3]| sample(self.lattice.index(s), self.lattice.point(s));
         let [xs, ys, zs] = self.samples(block);
         if block.iter().all(|r| r.len() == 1) {
-            for within in order_within(self.unit) {
-                let s = [xs.start + within[0], ys.start + within[1], zs.start + within[2]];
-                if xs.contains(&s[0]) && ys.contains(&s[1]) && zs.contains(&s[2]) {
+            for [i, j, k] in self.order {
+                let s = [xs.start + usize::from(i), ys.start + usize::from(j), zs.start + usize::from(k)];
+                if s[0] < xs.end && s[1] < ys.end && s[2] < zs.end {
                     give(s);
                 }
             }
@@ -148,13 +150,13 @@ impl Targets for LatticeTargets {
 }
 
 /// Places within a block in Morton order, so that the first four and eight lie close together too.
-fn order_within(unit: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+fn order_within(unit: [usize; 3]) -> [[u8; 3]; BLOCK] {
     let flat = unit[2] == 1;
     let step = if flat { 2 } else { 3 };
-    let bit = move |place: usize, axis: usize| {
-        (0..3).fold(0, |c, level| c | (place >> (step * level + axis) & 1) << level)
+    let bit = |place: usize, axis: usize| {
+        (0..3).fold(0, |c, level| c | (place >> (step * level + axis) & 1) << level) as u8
     };
-    (0..BLOCK).map(move |p| [bit(p, 0), bit(p, 1), if flat { 0 } else { bit(p, 2) }])
+    std::array::from_fn(|p| [bit(p, 0), bit(p, 1), if flat { 0 } else { bit(p, 2) }])
 }
 
 /// Points anywhere, sorted along the Morton curve: 12 bytes for each.

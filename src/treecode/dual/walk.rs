@@ -43,6 +43,7 @@ pub struct Space {
     /// Clusters and the groups of queries that they still have to act on.
     near: Vec<(u32, u32)>,
     points: Vec<Vec3>,
+    block: Block,
 }
 
 /// What a block inherits.
@@ -93,13 +94,11 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
             }
         }
         if is_leaf {
-            let mut points = std::mem::take(&mut space.points);
-            points.clear();
-            self.targets.for_each(block, |_, p| points.push(p));
-            let queries = Block::new(&points, &bounds, &place, &self.clusters.frame);
-            let bound = self.values(&queries, points.len(), own, mark, space, &mut findings.values);
+            space.points.clear();
+            self.targets.for_each(block, |_, p| space.points.push(p));
+            space.block.set(&space.points, &bounds, &place, &self.clusters.frame);
+            let bound = self.values(&mut own, mark, space, &mut findings.values);
             findings.blocks.push((block.clone(), Finding::Values { bound }));
-            space.points = points;
         } else {
             self.targets.split(block, |child| self.descend(&child, &own, mark, space, findings));
         }
@@ -169,17 +168,17 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     /// Appends the values at the queries of a leaf; answers a bound of their errors.
     fn values(
         &self,
-        block: &Block,
-        count: usize,
-        mut own: Inherited,
+        own: &mut Inherited,
         mark: usize,
         space: &mut Space,
         values: &mut Vec<f64>,
     ) -> f64 {
         let mut sums = [S::zero(); GROUPS];
         let mut far = [f32x4::ZERO; GROUPS];
-        own.error += ROUND_UP * self.near(block, &own.place, mark, space, &mut far, &mut sums) + ROUNDING_OF_SUMS;
-        self.add_far(&mut own, space);
+        let error = self.near(&own.place, mark, space, &mut far, &mut sums);
+        own.error += ROUND_UP * error + ROUNDING_OF_SUMS;
+        self.add_far(own, space);
+        let (block, count) = (&space.block, space.points.len());
         let groups = block.queries.groups;
         own.local.values(&block.scaled[..groups], self.accuracy.degree, &mut far[..groups]);
         for i in 0..count {
@@ -201,15 +200,14 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     /// a bound of the error made.
     fn near(
         &self,
-        block: &Block,
         place: &Place,
         mark: usize,
         space: &mut Space,
         far: &mut [f32x4; GROUPS],
         sums: &mut [S::Sum; GROUPS],
     ) -> f64 {
+        let Space { near, far: far_from_all, pending, block, .. } = space;
         let all = block.all();
-        let Space { near, far: far_from_all, pending, .. } = space;
         near.clear();
         near.extend(pending[mark..].iter().rev().map(|&c| (c, all)));
         let mut error = 0.0;
