@@ -1,5 +1,5 @@
 //! Times and errors of the dual-tree evaluator on the bunny as it is, on its triangles moved apart, and on its barycentres:
-//! `RAYON_NUM_THREADS=1 cargo run --release --example dual -- [RESOLUTION] [ORDER DEGREE BETA ETA]`.
+//! `RAYON_NUM_THREADS=1 cargo run --release --example dual -- [RESOLUTION] [ORDER DEGREE BETA ETA]…`.
 use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent, TriangleSoup};
 use fast_winding::math::Vec3;
 use fast_winding::treecode::{
@@ -13,7 +13,9 @@ use std::sync::Arc;
 mod common;
 
 const LEAF_SIZE: usize = 8;
-/// About so many samples are compared with the direct sum.
+/// What all samples are compared with.
+const REFERENCE: DualAccuracy = DualAccuracy { order: 3, degree: 5, beta: 7.0, eta: 9.0 };
+/// About so many samples of the reference are compared with the direct sum.
 const CHECKED: usize = 200;
 
 fn main() {
@@ -21,10 +23,8 @@ fn main() {
         std::env::args().skip(1).map(|a| a.parse().expect("arguments are numbers")).collect();
     let resolution = arguments.first().map_or(100, |r| *r as usize);
     let presets = match &arguments[1.min(arguments.len())..] {
-        [order, degree, beta, eta] => {
-            vec![DualAccuracy { order: *order as usize, degree: *degree as usize, beta: *beta, eta: *eta }]
-        }
-        _ => vec![DualAccuracy::FAST, DualAccuracy::DEFAULT, DualAccuracy::FINE, DualAccuracy::FINER],
+        [_, ..] => arguments[1..].chunks_exact(4).map(explicit).collect(),
+        [] => vec![DualAccuracy::FAST, DualAccuracy::DEFAULT, DualAccuracy::FINE, DualAccuracy::FINER],
     };
     let bunny = common::bunny();
     let loose = apart(&bunny);
@@ -33,6 +33,15 @@ fn main() {
     measure("loose", &presets, resolution, loose.clone(), loose.clone(), |q| winding_of_soup(&loose, q));
     let in_cloud: &OrientedCloud = &cloud;
     measure("cloud", &presets, resolution, cloud.clone(), cloud.clone(), |q| winding_of_cloud(in_cloud, q));
+}
+
+fn explicit(parameters: &[f64]) -> DualAccuracy {
+    DualAccuracy {
+        order: parameters[0] as usize,
+        degree: parameters[1] as usize,
+        beta: parameters[2],
+        eta: parameters[3],
+    }
 }
 
 /// Every triangle with corners of its own, moved by up to a 300th of the diagonal.
@@ -75,8 +84,11 @@ fn measure<S: Sources + Send>(
     let lattice = Lattice::with_resolution(bounds, resolution).expect("the model has a size");
     let points: Vec<Vec3> = (0..lattice.len()).map(|i| lattice.point(lattice.sample(i))).collect();
     let scattered = common::scattered(bounds, lattice.len(), 3);
-    let step = lattice.len() / CHECKED | 1;
+    let step = (lattice.len() / CHECKED) | 1;
     let expected: Vec<f64> = points.iter().step_by(step).map(|q| exact(*q)).collect();
+    let (_, reference, _) = run(&tree, &LatticeTargets::new(&lattice), lattice.len(), REFERENCE);
+    let (rms, max) = difference(reference.iter().step_by(step), expected.iter());
+    println!("  reference: rms {rms:.1e}, max {max:.1e} of {} samples", expected.len());
     let baseline = best(|| {
         let start = seconds();
         let grid = field.evaluate_lattice(&lattice, Accuracy::of_paper(field.shape()), &Silent);
@@ -84,12 +96,11 @@ fn measure<S: Sources + Send>(
     });
     println!("  without Taylor polynomials: {:.0} ns", 1e9 * baseline.0 / lattice.len() as f64);
     for accuracy in presets {
-        let (time, values, bound) = best(|| run(&tree, &LatticeTargets::new(&lattice), lattice.len(), *accuracy));
-        let (time_scattered, ..) = best(|| run(&tree, &PointTargets::new(&scattered), scattered.len(), *accuracy));
-        let errors: Vec<f64> =
-            values.iter().step_by(step).zip(&expected).map(|(v, e)| (v - e).abs()).collect();
-        let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
-        let max = errors.iter().copied().fold(0.0, f64::max);
+        let (time, values, bound) =
+            best(|| run(&tree, &LatticeTargets::new(&lattice), lattice.len(), *accuracy));
+        let (time_scattered, ..) =
+            best(|| run(&tree, &PointTargets::new(&scattered), scattered.len(), *accuracy));
+        let (rms, max) = difference(values.iter(), reference.iter());
         println!(
             "  p {} q {} beta {} eta {}: lattice {:.0} ns, scattered {:.0} ns, rms {rms:.1e}, max {max:.1e}, bound {bound:.1e}",
             accuracy.order,
@@ -100,6 +111,16 @@ fn measure<S: Sources + Send>(
             1e9 * time_scattered / lattice.len() as f64,
         );
     }
+}
+
+/// The root mean square and the largest of the differences.
+fn difference<'a>(
+    values: impl Iterator<Item = &'a f64>,
+    expected: impl Iterator<Item = &'a f64>,
+) -> (f64, f64) {
+    let errors: Vec<f64> = values.zip(expected).map(|(v, e)| (v - e).abs()).collect();
+    let square = errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64;
+    (square.sqrt(), errors.into_iter().fold(0.0, f64::max))
 }
 
 const RUNS: usize = 3;

@@ -97,7 +97,8 @@ impl Clusters {
             });
         }
         let spans = spans(&links);
-        let (balls, series) = (parts.par_iter().zip(&spans).map(|(part, span)| part.pack(&corners, span))).unzip();
+        let (balls, series) =
+            (parts.par_iter().zip(&spans).map(|(part, span)| part.pack(&corners, span))).unzip();
         let roots = levels.first().cloned().unwrap_or(0..0);
         Clusters { balls, links, series, roots, items: bvh.items().to_vec(), frame }
     }
@@ -187,9 +188,9 @@ impl Part {
         let mut scale = per_area / (4.0 * PI);
         let mut coefficients = [0.0; COEFFICIENTS];
         for n in 1..5 {
-            for k in n * n - 1..n * n + 2 * n {
-                coefficients[k] = (scale * self.moments.coefficients[k]) as f32;
-            }
+            let degree = n * n - 1..n * n + 2 * n;
+            let terms = &self.moments.coefficients[degree.clone()];
+            coefficients[degree].iter_mut().zip(terms).for_each(|(c, term)| *c = (scale * term) as f32);
             scale *= per_radius;
         }
         // By Minkowski's inequality, corners that were moved by CORNER_ROUNDING move the power mean by no more.

@@ -21,6 +21,7 @@ const fn line(b: usize, c: usize) -> usize {
     at + b * side - b * b.saturating_sub(1) / 2
 }
 
+/// [`line`] for each c and b.
 const LINES: [[usize; MAX_DEGREE + 1]; MAX_DEGREE + 1] = {
     let mut lines = [[0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
     let mut c = 0;
@@ -34,6 +35,12 @@ const LINES: [[usize; MAX_DEGREE + 1]; MAX_DEGREE + 1] = {
     }
     lines
 };
+
+/// Place of y^b z^c.
+#[inline(always)]
+fn place_of(b: usize, c: usize) -> usize {
+    LINES[c][b]
+}
 
 const INVERSE_FACTORIAL: [f64; MAX_DEGREE + 1] = [1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0];
 
@@ -63,7 +70,7 @@ impl Local {
                 for (a, l) in row[..=n - c].iter().enumerate() {
                     let b = n - c - a;
                     let factor = INVERSE_FACTORIAL[a] * INVERSE_FACTORIAL[b] * INVERSE_FACTORIAL[c];
-                    self.terms[LINES[c][b] + a] += factor * l;
+                    self.terms[place_of(b, c) + a] += factor * l;
                 }
             }
         }
@@ -77,7 +84,7 @@ impl Local {
         for c in 0..=degree {
             for b in 0..=degree - c {
                 let length = degree - b - c;
-                let start = LINES[c][b];
+                let start = place_of(b, c);
                 for first in 0..length {
                     (first..length).rev().for_each(|a| terms[start + a] += d[0] * terms[start + a + 1]);
                 }
@@ -88,7 +95,7 @@ impl Local {
                 let length = degree - a - c;
                 for first in 0..length {
                     for b in (first..length).rev() {
-                        terms[LINES[c][b] + a] += d[1] * terms[LINES[c][b + 1] + a];
+                        terms[place_of(b, c) + a] += d[1] * terms[place_of(b + 1, c) + a];
                     }
                 }
             }
@@ -98,7 +105,7 @@ impl Local {
                 let length = degree - a - b;
                 for first in 0..length {
                     for c in (first..length).rev() {
-                        terms[LINES[c][b] + a] += d[2] * terms[LINES[c + 1][b] + a];
+                        terms[place_of(b, c) + a] += d[2] * terms[place_of(b, c + 1) + a];
                     }
                 }
             }
@@ -107,7 +114,7 @@ impl Local {
         (1..=MAX_DEGREE).for_each(|n| powers[n] = powers[n - 1] * ratio);
         for c in 0..=degree {
             for b in 0..=degree - c {
-                let start = LINES[c][b];
+                let start = place_of(b, c);
                 (0..=degree - b - c).for_each(|a| terms[start + a] *= powers[a + b + c]);
             }
         }
@@ -123,7 +130,7 @@ impl Local {
             for b in 0..=degree - c {
                 let mut x = y;
                 for a in 0..=degree - b - c {
-                    spread += x * self.terms[LINES[c][b] + a].abs();
+                    spread += x * self.terms[place_of(b, c) + a].abs();
                     x *= half[0];
                 }
                 y *= half[1];
@@ -148,7 +155,7 @@ impl Local {
         let zero = f32x4::ZERO;
         for ([x, y, z], value) in queries.iter().zip(values) {
             let in_x = |b: usize, c: usize| {
-                let line = &terms[LINES[c][b]..][..=DEGREE - b - c];
+                let line = &terms[place_of(b, c)..][..=DEGREE - b - c];
                 line.iter().rev().fold(zero, |sum, term| sum * *x + *term)
             };
             let in_y = |c: usize| (0..=DEGREE - c).rev().fold(zero, |sum, b| sum * *y + in_x(b, c));

@@ -71,10 +71,8 @@ impl Moments {
         add_product::<f64, 2>(&sixth, form, &mut inner);
         add_product::<f64, 2>(&half, form, &mut second);
         add_product::<f64, 3>(&inner, form, &mut third);
-        let moved = (a[0..3].iter().copied())
-            .chain((0..5).map(|i| a[3 + i] + first[i]))
-            .chain(second)
-            .chain(third);
+        let moved =
+            (a[0..3].iter().copied()).chain((0..5).map(|i| a[3 + i] + first[i])).chain(second).chain(third);
         self.coefficients.iter_mut().zip(moved).for_each(|(sum, term)| *sum += term);
     }
 }

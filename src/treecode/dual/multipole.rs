@@ -147,3 +147,67 @@ fn quartic([y4, xy3, x2y2, x3y, x4]: [f32; 5]) -> [f32; 5] {
         0.125 * (x3y - xy3),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Vec3;
+    use crate::treecode::dual::bounds::{
+        ROUNDING_OF_MULTIPOLE, largest_field, multipole_tail, spread_of_order,
+    };
+    use crate::treecode::dual::clusters::Clusters;
+    use crate::treecode::dual::sources::tests::{Dipoles, random};
+    use std::f64::consts::PI;
+
+    fn value(multipole: &Multipole, q: Vec3, order: usize) -> f64 {
+        let query = q.to_array().map(|x| f32x4::splat(x as f32));
+        let lanes = match order {
+            0 => multipole.at::<0>(&query),
+            1 => multipole.at::<1>(&query),
+            2 => multipole.at::<2>(&query),
+            _ => multipole.at::<3>(&query),
+        };
+        f64::from(lanes.to_array()[1])
+    }
+
+    #[test]
+    fn error_stays_below_the_bound_and_rounding_below_its_part() {
+        let mut largest_rounding: f64 = 0.0;
+        for seed in 0..8000 {
+            let order = (seed % 4) as usize;
+            let mut next = random(seed);
+            let mut vector = || Vec3::new(next(), next(), next());
+            let dipoles: Vec<(Vec3, Vec3)> = (0..6).map(|_| (vector(), vector())).collect();
+            let far = if seed % 2 == 0 { 1e4 } else { 2.5 + (seed % 11) as f64 / 5.0 };
+            let q = far * vector().normalize();
+            let sum: f64 =
+                dipoles.iter().map(|(p, v)| (*p - q).dot(*v) / ((*p - q).length().powi(3) * 4.0 * PI)).sum();
+            let clusters = Clusters::build(&Dipoles(dipoles), 8);
+            let ball = clusters.balls[0];
+            let center = Vec3::new(f64::from(ball[0]), f64::from(ball[1]), f64::from(ball[2]));
+            let local = clusters.frame.local(q);
+            let offset = (center - local).to_array().map(|x| x as f32);
+            let multipole = Multipole::new(&clusters.series[0], offset, ball[3], order);
+            let error = (value(&multipole, Vec3::ZERO, order) - sum).abs();
+            let [area, radius, distance, spread] = [
+                clusters.series[0].area,
+                ball[3],
+                (center - local).length() as f32,
+                spread_of_order(clusters.series[0].spread, order),
+            ]
+            .map(f32x4::splat);
+            if (distance - radius).to_array()[0] <= 0.1 * radius.to_array()[0] {
+                continue;
+            }
+            let one = |lanes: f32x4| f64::from(lanes.to_array()[0]);
+            let left_out = one(multipole_tail(area, spread, radius, distance, order));
+            let scale = one(largest_field(area, distance - radius));
+            let bound = left_out + ROUNDING_OF_MULTIPOLE * scale;
+            assert!(error <= bound, "seed {seed}: {error} above {bound}");
+            if order == 3 && far > 1e3 {
+                largest_rounding = largest_rounding.max(error / scale);
+            }
+        }
+        assert!(largest_rounding < 0.05 * ROUNDING_OF_MULTIPOLE, "{largest_rounding}");
+    }
+}

@@ -82,3 +82,47 @@ impl<S: Sources + Send> Sources for Arc<S> {
         S::total(sum)
     }
 }
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+
+    /// Dipoles for tests, without a near field.
+    pub struct Dipoles(pub Vec<(Vec3, Vec3)>);
+
+    impl Sources for Dipoles {
+        type Sum = ();
+        const POINTS: bool = true;
+        const ROUNDING: f64 = 0.0;
+
+        fn len(&self) -> usize {
+            self.0.len()
+        }
+
+        fn corners(&self, index: usize) -> [Vec3; 3] {
+            [self.0[index].0; 3]
+        }
+
+        fn area_vector(&self, index: usize) -> Vec3 {
+            self.0[index].1
+        }
+
+        fn zero() {}
+
+        fn add(&self, _: &[u32], _: &QueryBlock, _: u32, _: &mut [(); GROUPS]) {}
+
+        fn total((): &()) -> [f64; 4] {
+            [0.0; 4]
+        }
+    }
+
+    /// Numbers in [−1, 1).
+    pub fn random(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(1);
+        move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let mixed = (state ^ (state >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+            (mixed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+}

@@ -104,16 +104,16 @@ impl Targets for LatticeTargets {
         Aabb { min: first.min(last), max: first.max(last) }
     }
 
-    /// Halves the axes that are more than half as long as the longest.
+    /// Halves the axes that are not much shorter than the longest.
     fn split(&self, block: &Cells, mut child: impl FnMut(Cells)) {
-        let size = [0, 1, 2].map(|axis| {
-            (block[axis].len() * self.unit[axis]) as f64 * self.lattice.spacing[axis].abs()
-        });
+        let size = [0, 1, 2]
+            .map(|axis| (block[axis].len() * self.unit[axis]) as f64 * self.lattice.spacing[axis].abs());
         let divisible = |axis: usize| block[axis].len() > 1;
         let longest = (0..3).filter(|a| divisible(*a)).map(|a| size[a]).fold(0.0, f64::max);
         let parts = [0, 1, 2].map(|axis| {
             let Range { start, end } = block[axis];
-            let cut = divisible(axis) && !(size[axis] < 0.6 * longest);
+            let is_short = size[axis] < 0.6 * longest;
+            let cut = divisible(axis) && !is_short;
             let middle = if cut { start + (end - start).div_ceil(2) } else { end };
             [start..middle, middle..end]
         });

@@ -10,6 +10,10 @@ use crate::data::BLOCK;
 use crate::math::Vec3;
 use wide::f32x4;
 
+/// Least distance for a multipole series, in radii of the block: nearer, 32-bit positions relative to the block's centre would
+/// give it a wrong direction.
+const NEAREST_MULTIPOLE: f32 = 1.0 / 16.0;
+
 /// What does not change during walks.
 pub struct Walk<'a, S: Sources, T: Targets, D> {
     pub clusters: &'a Clusters,
@@ -122,11 +126,9 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
             let four = [at(0), at(1), at(2), at(3)];
             next += count;
             let (offset, radius) = place.relative_to(four.map(|c| &self.clusters.balls[c as usize]));
-            let distance =
-                (offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]).sqrt();
-            let is_far = (distance.simd_gt(beta * radius + reach)
-                & (distance - radius).simd_gt(eta * reach))
-            .to_bitmask();
+            let distance = (offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]).sqrt();
+            let is_far = (distance.simd_gt(beta * radius + reach) & (distance - radius).simd_gt(eta * reach))
+                .to_bitmask();
             let is_apart = (distance * f32x4::splat(1.0 - 1e-6)).simd_gt(radius + reach).to_bitmask();
             for (k, cluster) in four.into_iter().enumerate().take(count) {
                 let link = &self.clusters.links[cluster as usize];
@@ -166,13 +168,7 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     }
 
     /// Appends the values at the queries of a leaf; answers a bound of their errors.
-    fn values(
-        &self,
-        own: &mut Inherited,
-        mark: usize,
-        space: &mut Space,
-        values: &mut Vec<f64>,
-    ) -> f64 {
+    fn values(&self, own: &mut Inherited, mark: usize, space: &mut Space, values: &mut Vec<f64>) -> f64 {
         let mut sums = [S::zero(); GROUPS];
         let mut far = [f32x4::ZERO; GROUPS];
         let error = self.near(&own.place, mark, space, &mut far, &mut sums);
@@ -212,7 +208,8 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         near.extend(pending[mark..].iter().rev().map(|&c| (c, all)));
         let mut error = 0.0;
         while let Some((cluster, wanted)) = near.pop() {
-            let (ball, link) = (&self.clusters.balls[cluster as usize], &self.clusters.links[cluster as usize]);
+            let (ball, link) =
+                (&self.clusters.balls[cluster as usize], &self.clusters.links[cluster as usize]);
             let offset = place.offset_of(ball);
             if wanted == all && self.is_far(offset.length() as f32, ball[3], place.radius) {
                 far_from_all.push(cluster);
@@ -243,10 +240,15 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         distance > beta as f32 * radius + reach && distance - radius > eta as f32 * reach
     }
 
-    /// Which of the `wanted` groups of queries lie farther than β radii from a cluster.
+    /// From where on a cluster acts by its multipole series on queries of a block: β radii.
+    fn least_distance(&self, radius: f32, reach: f32) -> f32 {
+        (self.accuracy.beta as f32 * radius).max(NEAREST_MULTIPOLE * reach)
+    }
+
+    /// Which of the `wanted` groups of queries lie farther than that from a cluster.
     #[inline(always)]
     fn far_groups(&self, block: &Block, center: [f32; 3], radius: f32, wanted: u32) -> u32 {
-        let distance = self.accuracy.beta as f32 * radius;
+        let distance = self.least_distance(radius, block.queries.reach);
         let (center, square) = (center.map(f32x4::splat), f32x4::splat(distance * distance));
         bits(wanted)
             .filter(|&g| Multipole::is_farther(&center, &block.queries.offsets[g], square))
@@ -272,11 +274,11 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         }
     }
 
-    /// A bound of the error of a multipole series for those queries of a block that are farther than β radii.
+    /// A bound of the error of a multipole series for those queries of a block that it acts on.
     fn error_of_multipole(&self, cluster: u32, distance: f32, reach: f32) -> f64 {
         let (series, radius) =
             (&self.clusters.series[cluster as usize], self.clusters.balls[cluster as usize][3]);
-        let closest = (distance - reach).max(self.accuracy.beta as f32 * radius) * (1.0 - 1e-6);
+        let closest = (distance - reach).max(self.least_distance(radius, reach)) * (1.0 - 1e-5);
         let order = self.accuracy.order;
         let [area, spread, radius, closest] =
             [series.area, bounds::spread_of_order(series.spread, order), radius, closest].map(f32x4::splat);

@@ -68,6 +68,8 @@ struct Dipole32 {
 
 /// 6 ε / 4π over the error that is allowed.
 const LEAST_CUBE: f32 = 0.029;
+/// What d must exceed for that estimate to hold: 64 ε.
+const LEAST_OFFSET: f32 = 4e-6;
 const DIPOLE_ROUNDING: f64 = 1e-6;
 
 impl Dipole32 {
@@ -77,7 +79,7 @@ impl Dipole32 {
         let vector = queries.scale * queries.scale * vector;
         let splat = |v: Vec3| [f32x4::splat(v.x as f32), f32x4::splat(v.y as f32), f32x4::splat(v.z as f32)];
         let length = point.length() as f32 + queries.reach;
-        let least = LEAST_CUBE * length * vector.length() as f32;
+        let least = (LEAST_CUBE * length * vector.length() as f32).max((LEAST_OFFSET * length).powi(3));
         Dipole32 { point: splat(point), vector: splat(vector), least: f32x4::splat(least) }
     }
 

@@ -87,19 +87,23 @@ const SMALLEST_NUMERATOR: f32 = 1e-30;
 /// A triangle near a block of queries, relative to its centre, in all lanes.
 ///
 /// With ε = 2⁻²⁴ and L a bound of the lengths of corners and queries, corners relative to a query a, b, c are known to about
-/// εL, and numerator and denominator to a few ε L (|a||b| + |b||c| + |c||a|).
+/// εL, and numerator and denominator to a few ε L (|a||b| + |b||c| + |c||a|), which is up to ε L (|a| + |b| + |c|)² with a third
+/// of the factor.
 struct Triangle32 {
     corners: [[f32x4; 3]; 3],
     normal: [f32x4; 3],
     /// L times the constants below.
     least: f32x4,
     least_numerator: f32x4,
+    slack: f32x4,
 }
 
-/// What numerator and denominator together must exceed for an angle to be good to 2e-5: 8 ε / 2e-5.
-const LEAST: f32 = 0.024;
-/// What a numerator must exceed for its sign to be certain, which matters where the denominator is negative: 8 ε.
-const LEAST_NUMERATOR: f32 = 5e-7;
+/// What numerator and denominator together must exceed for an angle to be good to 2e-5: a third of 8 ε / 2e-5.
+const LEAST: f32 = 0.008;
+/// What a numerator must exceed for its sign to be certain, which matters where the denominator is negative: a third of 8 ε.
+const LEAST_NUMERATOR: f32 = 1.7e-7;
+/// How much larger than computed |a| + |b| + |c| may be: 8 ε.
+const SLACK: f32 = 5e-7;
 /// The error of a winding number by that angle: 2e-5 / 2π.
 const TRIANGLE_ROUNDING: f64 = 3.2e-6;
 
@@ -116,6 +120,7 @@ impl Triangle32 {
             normal: splat((b - a).cross(c - a)),
             least: f32x4::splat(LEAST * length),
             least_numerator: f32x4::splat(LEAST_NUMERATOR * length),
+            slack: f32x4::splat(SLACK * length),
         }
     }
 
@@ -129,10 +134,11 @@ impl Triangle32 {
         let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
         let ab = la * lb;
         let denominator = (ab + dot(&a, &b)) * lc + (dot(&b, &c) * la + dot(&c, &a) * lb);
-        let sides = ab + (la + lb) * lc;
+        let lengths = la + lb + lc + self.slack;
+        let square = lengths * lengths;
         let size = numerator.abs();
-        let is_large = (size + denominator.abs()).simd_gt(self.least * sides);
-        let has_sign = size.simd_gt(self.least_numerator * sides) | denominator.simd_gt(f32x4::ZERO);
+        let is_large = (size + denominator.abs()).simd_gt(self.least * square);
+        let has_sign = size.simd_gt(self.least_numerator * square) | denominator.simd_gt(f32x4::ZERO);
         (is_large & has_sign).all().then_some((numerator, denominator))
     }
 }
@@ -169,8 +175,11 @@ impl Triangle {
         let numerator = dot(&a, &self.normal);
         let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
         let denominator = (la * lb + dot(&a, &b)) * lc + (dot(&b, &c) * la + dot(&c, &a) * lb);
-        let bound =
-            if D::DECIDES { dot(&[a[0].abs(), a[1].abs(), a[2].abs()], &self.normal_magnitude) } else { f64x4::ZERO };
+        let bound = if D::DECIDES {
+            dot(&[a[0].abs(), a[1].abs(), a[2].abs()], &self.normal_magnitude)
+        } else {
+            f64x4::ZERO
+        };
         (numerator, denominator, bound)
     }
 }
