@@ -5,7 +5,7 @@ use common::*;
 use fast_winding::data::{Lattice, OrientedCloud, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3};
 use fast_winding::treecode::{
-    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Sources, Targets,
+    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, SourceKind, Sources, Targets,
 };
 use fast_winding::winding::{winding_of_cloud, winding_of_soup};
 use std::sync::Arc;
@@ -279,4 +279,27 @@ fn memory_stays_below_a_hundred_bytes_for_a_source() {
     let soup = torus(1.0, 0.4, 200, 100);
     let tree = DualTree::build(Arc::new(soup.clone()), LEAF);
     assert!(tree.bytes() < 100 * soup.len(), "{}", tree.bytes() as f64 / soup.len() as f64);
+}
+
+#[test]
+fn tolerances_are_kept_on_a_scan() {
+    let bunny = bunny();
+    let cloud = barycentre_cloud(&bunny, 2);
+    let points = scattered(bunny.bounds(), 300, 11);
+    let of_soup: Vec<f64> = points.iter().map(|q| winding_of_soup(&bunny, *q)).collect();
+    let of_cloud: Vec<f64> = points.iter().map(|q| winding_of_cloud(&cloud, *q)).collect();
+    let (soup_tree, cloud_tree) = (DualTree::build(bunny, LEAF), DualTree::build(cloud, LEAF));
+    let targets = PointTargets::new(&points);
+    for tolerance in [1e-2f64, 1e-3, 1e-4, 1e-5] {
+        let keeps = |results: Vec<(f64, f64)>, expected: &[f64]| {
+            for ((value, bound), expected) in results.into_iter().zip(expected) {
+                let error = (value - expected).abs();
+                assert!(error <= tolerance.min(bound), "tolerance {tolerance}: error {error}, bound {bound}");
+            }
+        };
+        let accuracy = |kind| DualAccuracy::within(tolerance, kind).unwrap();
+        keeps(evaluate(&soup_tree, &targets, 300, accuracy(SourceKind::Triangles)), &of_soup);
+        keeps(evaluate(&cloud_tree, &targets, 300, accuracy(SourceKind::Points)), &of_cloud);
+    }
+    assert_eq!(DualAccuracy::within(1e-7, SourceKind::Triangles), None);
 }

@@ -9,8 +9,8 @@ mod moments;
 mod tree;
 
 pub use dual::{
-    BlockView, DualAccuracy, DualTree, GROUPS, LatticeTargets, Outcome, PointTargets, QueryBlock, Sources,
-    Targets,
+    BlockView, DualAccuracy, DualTree, GROUPS, LatticeTargets, Outcome, PointTargets, QueryBlock, SourceKind,
+    Sources, Targets,
 };
 pub use expansion::Order;
 pub use kernel::{Kernel, Lanes, Quadrature};

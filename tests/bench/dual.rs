@@ -14,7 +14,7 @@ mod common;
 
 const LEAF_SIZE: usize = 8;
 /// What all samples are compared with.
-const REFERENCE: DualAccuracy = DualAccuracy { order: 3, degree: 5, beta: 7.0, eta: 9.0 };
+const REFERENCE: DualAccuracy = DualAccuracy { order: 3, degree: 5, beta: 10.0, eta: 12.0 };
 /// About so many samples of the reference are compared with the direct sum.
 const CHECKED: usize = 200;
 

@@ -87,11 +87,13 @@ impl Clusters {
         let mut parts = vec![empty; links.len()];
         for level in levels.iter().rev() {
             let (upper, lower) = parts.split_at_mut(level.end);
-            upper[level.clone()].par_iter_mut().zip(&links[level.clone()]).for_each(|(part, link)| {
+            let parts = upper[level.clone()].par_iter_mut().zip(&links[level.clone()]);
+            parts.for_each_init(Vec::new, |members, (part, link)| {
+                let range = link.range();
                 *part = if link.is_leaf() {
-                    Part::of_sources(sources, &bvh.items()[link.range()], &frame)
+                    gather(sources, &bvh.items()[range], &frame, members);
+                    Part::of_sources::<S>(members)
                 } else {
-                    let range = link.range();
                     Part::of_parts(&lower[range.start - level.end..range.end - level.end])
                 };
             });
@@ -146,25 +148,21 @@ fn spans(links: &[Link]) -> Vec<Range<usize>> {
 }
 
 impl Part {
-    fn of_sources<S: Sources>(sources: &S, members: &[u32], frame: &Frame) -> Part {
-        let scale = frame.scale * frame.scale;
+    fn of_sources<S: Sources>(members: &[Member]) -> Part {
         let (mut area, mut weighted, mut middle) = (0.0, Vec3::ZERO, Aabb::EMPTY);
-        for &i in members {
-            let own = scale * sources.area_vector(i as usize).length();
-            let corners = local_corners(sources, i, frame);
+        for Member { corners: [a, b, c], area_vector } in members {
+            let own = area_vector.length();
             area += own;
-            weighted += own / 3.0 * (corners[0] + corners[1] + corners[2]);
-            middle = middle.including(corners[0]).including(corners[1]).including(corners[2]);
+            weighted += own / 3.0 * (*a + *b + *c);
+            middle = middle.including(*a).including(*b).including(*c);
         }
         let center = narrowed(area, weighted, middle.center());
         let mut moments = Moments::ZERO;
-        for &i in members {
-            let area_vector = scale * sources.area_vector(i as usize);
-            let [a, b, c] = local_corners(sources, i, frame);
+        for Member { corners: [a, b, c], area_vector } in members {
             if S::POINTS {
-                moments.add_point(a - center, area_vector);
+                moments.add_point(*a - center, *area_vector);
             } else {
-                moments.add_triangle([a - center, b - center, c - center], area_vector);
+                moments.add_triangle([*a - center, *b - center, *c - center], *area_vector);
             }
         }
         Part { area, center, moments }
@@ -205,10 +203,21 @@ impl Part {
     }
 }
 
-#[inline(always)]
-fn local_corners<S: Sources>(sources: &S, index: u32, frame: &Frame) -> [Vec3; 3] {
-    let [a, b, c] = sources.corners(index as usize);
-    [frame.local(a), frame.local(b), frame.local(c)]
+/// A source in the unit frame.
+struct Member {
+    corners: [Vec3; 3],
+    area_vector: Vec3,
+}
+
+/// Copies sources of a leaf: all at once, as they are anywhere in memory.
+fn gather<S: Sources>(sources: &S, items: &[u32], frame: &Frame, members: &mut Vec<Member>) {
+    let scale = frame.scale * frame.scale;
+    members.clear();
+    members.extend(items.iter().map(|&i| {
+        let [a, b, c] = sources.corners(i as usize);
+        let corners = [frame.local(a), frame.local(b), frame.local(c)];
+        Member { corners, area_vector: scale * sources.area_vector(i as usize) }
+    }));
 }
 
 /// A centre that is exact in 32-bit floats, so that storing it rounds nothing.

@@ -18,7 +18,7 @@ mod targets;
 mod tree;
 mod walk;
 
-pub use accuracy::DualAccuracy;
+pub use accuracy::{DualAccuracy, SourceKind};
 pub use sources::{QueryBlock, QueryLanes, Sources};
 pub use targets::{BlockView, LatticeTargets, PointTargets, Targets};
 pub use tree::{DualTree, Outcome};
