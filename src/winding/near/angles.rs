@@ -44,3 +44,25 @@ impl Angles {
         std::array::from_fn(|k| f64::from(angles[k]) / TAU + f64::from(wraps[k]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_many_angles_count_every_turn() {
+        let mut sums = Angles::ZERO;
+        let mut expected = [0.0; 4];
+        let steps = [0.7, -0.9, 3.1, -3.1];
+        for i in 0..300 {
+            let turned = steps.map(|s| s * (0.3 + 0.7 * f64::from(i % 5) / 4.0));
+            let length = 10f64.powi(i % 9 - 4);
+            let lanes = |f: fn(f64) -> f64| f32x4::from(turned.map(|t| (length * f(t)) as f32));
+            sums.add(lanes(f64::cos), lanes(f64::sin));
+            expected.iter_mut().zip(turned).for_each(|(e, t)| *e += t / TAU);
+            for (value, expected) in sums.turns().into_iter().zip(expected) {
+                assert!((value - expected).abs() < 1e-5, "step {i}: {value} instead of {expected}");
+            }
+        }
+    }
+}

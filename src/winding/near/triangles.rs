@@ -225,3 +225,73 @@ impl Sources for TriangleSoup {
         sum.turns()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::solid_angle;
+    use std::f64::consts::PI;
+
+    const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(1.0, 0.1, 0.3), Vec3::new(0.2, 1.0, -0.2)];
+
+    fn block(points: [Vec3; 4]) -> QueryBlock {
+        let lanes = |axis: usize| f64x4::from(points.map(|p| p[axis]));
+        let offsets = |axis: usize| f32x4::from(points.map(|p| p[axis] as f32));
+        QueryBlock {
+            positions: [[lanes(0), lanes(1), lanes(2)]; GROUPS],
+            center: Vec3::ZERO,
+            offsets: [[offsets(0), offsets(1), offsets(2)]; GROUPS],
+            scale: 1.0,
+            reach: points.iter().fold(0.0, |reach, p| p.length().max(reach)) as f32,
+            groups: 1,
+        }
+    }
+
+    fn winding_numbers(sides: &impl Sides, points: [Vec3; 4]) -> [f64; 4] {
+        let mut sums = [Angles::ZERO; GROUPS];
+        add_triangle(TRIANGLE, sides, &block(points), 1, &mut sums);
+        assert_eq!(sums[1].turns(), [0.0; 4]);
+        sums[0].turns()
+    }
+
+    #[test]
+    fn one_triangle_has_its_solid_angle_from_near_and_far() {
+        let [a, b, c] = TRIANGLE;
+        let (normal, middle, edge) = ((b - a).cross(c - a), (a + b + c) / 3.0, 0.3 * a + 0.7 * b);
+        for distance in [3.0, 0.1, 1e-4, 1e-8, -1e-8, -0.01] {
+            let points = [middle, edge, a + 1e-9 * b, edge + distance * c].map(|p| p + distance * normal);
+            for (q, w) in points.into_iter().zip(winding_numbers(&AsComputed, points)) {
+                let expected = solid_angle(q, TRIANGLE) / (4.0 * PI);
+                assert!((w - expected).abs() < TRIANGLE_ROUNDING, "{distance}: {w} instead of {expected}");
+            }
+        }
+    }
+
+    /// Puts every query in doubt on the side of a sign.
+    struct Given(f64);
+
+    impl Sides for Given {
+        const DECIDES: bool = true;
+
+        fn decide(&self, corners: &[Vec3; 3], _: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
+            assert_eq!(*corners, TRIANGLE);
+            let mut values = numerators.to_array();
+            (0..4).filter(|k| open >> k & 1 == 1).for_each(|k| values[k] = self.0);
+            f64x4::from(values)
+        }
+    }
+
+    #[test]
+    fn sides_decide_only_where_rounding_leaves_it_open() {
+        let [a, b, c] = TRIANGLE;
+        let (normal, middle) = ((b - a).cross(c - a), (a + b + c) / 3.0);
+        let points =
+            [middle, middle + 1e-3 * normal, a + 2.0 * (b - a) + 2.0 * (c - a), middle - 1e-3 * normal];
+        for sign in [1.0, -1.0] {
+            let [inside, in_front, outside, behind] = winding_numbers(&Given(sign * 1e-300), points);
+            assert!((inside - 0.5 * sign).abs() < 1e-6, "{inside}");
+            assert!(outside.abs() < 1e-6, "{outside}");
+            assert!(in_front < -0.49 && behind > 0.49, "{in_front} {behind}");
+        }
+    }
+}
