@@ -71,7 +71,7 @@ fn split(codes: &[u64], range: &Range<usize>, leaf_size: usize) -> [Range<usize>
 }
 
 /// Where the highest bit in which the codes of a range differ turns from 0 to 1; the middle when all are equal.
-fn cut_at_highest_bit(codes: &[u64], range: &Range<usize>) -> usize {
+pub fn cut_at_highest_bit(codes: &[u64], range: &Range<usize>) -> usize {
     let differ = codes[range.start] ^ codes[range.end - 1];
     if differ == 0 {
         return range.start + range.len() / 2;

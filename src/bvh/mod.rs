@@ -3,6 +3,7 @@
 mod build;
 mod morton;
 
+pub use build::cut_at_highest_bit;
 pub use morton::morton_code;
 
 use crate::math::Aabb;

@@ -3,6 +3,7 @@ use crate::math::{Aabb, Vec3};
 const BITS: u32 = 21;
 
 /// Place of `p` on the Morton (Z-order) curve through `bounds`, 21 bits for each axis.
+#[inline]
 pub fn morton_code(p: Vec3, bounds: &Aabb) -> u64 {
     let steps = f64::from(1u32 << BITS);
     let size = bounds.size().max(Vec3::splat(f64::MIN_POSITIVE));
@@ -11,6 +12,7 @@ pub fn morton_code(p: Vec3, bounds: &Aabb) -> u64 {
 }
 
 /// Moves bit i of a 21-bit number to bit 3i.
+#[inline]
 fn spread(x: u64) -> u64 {
     let x = (x | x << 32) & 0x001f_0000_0000_ffff;
     let x = (x | x << 16) & 0x001f_0000_ff00_00ff;

@@ -133,6 +133,7 @@ impl OrientedCloud {
     }
 
     /// Number of points.
+    #[inline]
     pub fn len(&self) -> usize {
         self.points.len()
     }
@@ -141,16 +142,19 @@ impl OrientedCloud {
         self.points.is_empty()
     }
 
+    #[inline]
     pub fn points(&self) -> &[Vec3] {
         &self.points
     }
 
     /// Unit normals.
+    #[inline]
     pub fn normals(&self) -> &[Vec3] {
         &self.normals
     }
 
     /// Areas in square millimetres.
+    #[inline]
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }

@@ -94,11 +94,13 @@ impl Lattice {
     }
 
     /// Position of sample (i, j, k).
+    #[inline]
     pub fn point(&self, [i, j, k]: [usize; 3]) -> Vec3 {
         self.origin + self.spacing * Vec3::new(i as f64, j as f64, k as f64)
     }
 
     /// Place of sample (i, j, k) in an array of all samples.
+    #[inline]
     pub fn index(&self, [i, j, k]: [usize; 3]) -> usize {
         (k * self.counts[1] + j) * self.counts[0] + i
     }

@@ -91,6 +91,7 @@ impl TriangleSoup {
     }
 
     /// The three corners of triangle `index`.
+    #[inline]
     pub fn corners(&self, index: usize) -> [Vec3; 3] {
         self.triangles[index].map(|i| self.positions[i as usize])
     }

@@ -12,27 +12,33 @@ impl Aabb {
     pub const EMPTY: Aabb = Aabb { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
     /// The smallest box around `points`; [`Aabb::EMPTY`] when there are none.
+    #[inline]
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
         points.into_iter().fold(Aabb::EMPTY, |all, p| all.including(p))
     }
 
+    #[inline]
     pub fn including(self, p: Vec3) -> Aabb {
         Aabb { min: self.min.min(p), max: self.max.max(p) }
     }
 
+    #[inline]
     pub fn union(self, other: Aabb) -> Aabb {
         Aabb { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    #[inline]
     pub fn is_empty(&self) -> bool {
         !self.min.cmple(self.max).all()
     }
 
     /// Edge lengths; zero for an empty box.
+    #[inline]
     pub fn size(&self) -> Vec3 {
         if self.is_empty() { Vec3::ZERO } else { self.max - self.min }
     }
 
+    #[inline]
     pub fn center(&self) -> Vec3 {
         if self.is_empty() { Vec3::ZERO } else { self.min + 0.5 * (self.max - self.min) }
     }
@@ -54,6 +60,7 @@ impl Aabb {
         if center.length() > FAR * self.diagonal() { center } else { Vec3::ZERO }
     }
 
+    #[inline]
     pub fn contains(&self, p: Vec3) -> bool {
         self.min.cmple(p).all() && p.cmple(self.max).all()
     }

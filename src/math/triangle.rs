@@ -2,6 +2,7 @@
 use super::Vec3;
 
 /// The normal of triangle `abc` scaled by its area: ½ (b − a) × (c − a).
+#[inline]
 pub fn area_vector([a, b, c]: [Vec3; 3]) -> Vec3 {
     0.5 * (b - a).cross(c - a)
 }

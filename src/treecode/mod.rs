@@ -1,11 +1,18 @@
 //! Barnes–Hut summation of many small sources: far clusters by their multipole moments, near ones singly.
 //!
-//! Barill et al. 2018, sections 3.2 and 3.3 (algorithm 1, eqs. 6 to 21, appendices A and B).
+//! Barill et al. 2018, sections 3.2 and 3.3 (algorithm 1, eqs. 6 to 21, appendices A and B), for one query or a block of them;
+//! and a dual tree for many queries, in which far clusters act on whole blocks through Taylor polynomials.
+mod dual;
 mod expansion;
+mod frame;
 mod kernel;
 mod moments;
 mod tree;
 
+pub use dual::{
+    BlockView, DualAccuracy, DualTree, GROUPS, LatticeTargets, Outcome, PointTargets, QueryBlock, SourceKind,
+    Sources, Targets,
+};
 pub use expansion::Order;
 pub use kernel::{Kernel, Lanes, Quadrature};
 pub use tree::{Scratch, Tree, TreeConfig};

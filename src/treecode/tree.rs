@@ -1,6 +1,7 @@
 mod gradient;
 
 use super::expansion::{Cluster, Expansion, Order, Positions};
+use super::frame::Frame;
 use super::kernel::{Kernel, Quadrature};
 use super::moments::Moments;
 use crate::bvh::{Bvh, Child, Stack, WIDTH};
@@ -105,27 +106,6 @@ impl Block {
             *sum += field;
             far | u64::from(is_far) << (WIDTH * g)
         })
-    }
-}
-
-/// Moves the sources into a unit cube about the origin. The winding number does not change with scale, but powers of
-/// lengths in 32-bit floats would overflow.
-#[derive(Clone, Copy)]
-struct Frame {
-    center: Vec3,
-    scale: f64,
-}
-
-impl Frame {
-    fn around(bounds: &Aabb) -> Frame {
-        let longest = bounds.size().max_element();
-        // A power of two: scaling is exact.
-        let scale = if longest > 0.0 { (-longest.log2().ceil()).exp2() } else { 1.0 };
-        Frame { center: bounds.center(), scale }
-    }
-
-    fn local(&self, p: Vec3) -> Vec3 {
-        (p - self.center) * self.scale
     }
 }
 

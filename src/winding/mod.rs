@@ -17,6 +17,7 @@ mod gradient;
 mod hierarchy;
 mod lattice;
 mod locate;
+mod near;
 mod parity;
 mod pieces;
 mod scan;

@@ -1,0 +1,276 @@
+//! Clusters of sources with their multipole moments, bottom-up over a [`Bvh`].
+use super::local::sum_of_lanes;
+use super::moments::{COEFFICIENTS, Moments};
+use super::{Sources, WIDTH};
+use crate::bvh::{Bvh, Child};
+use crate::math::{Aabb, Vec3};
+use crate::treecode::frame::Frame;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::ops::Range;
+use wide::f32x4;
+
+/// Where a cluster is, in the tree's unit frame: x, y, z of the centre, and the distance of the farthest corner of a
+/// source from it, rounded up.
+pub type Ball = [f32; 4];
+
+/// What a cluster holds: items of the tree's order, or clusters.
+#[derive(Clone, Copy)]
+pub struct Link {
+    first: u32,
+    /// The highest bit is set for items.
+    count: u32,
+}
+
+const LEAF: u32 = 1 << 31;
+
+impl Link {
+    pub fn is_leaf(&self) -> bool {
+        self.count & LEAF != 0
+    }
+
+    pub fn range(&self) -> Range<usize> {
+        self.first as usize..(self.first + (self.count & !LEAF)) as usize
+    }
+}
+
+/// The far field of a cluster.
+#[derive(Clone, Copy)]
+pub struct Series {
+    /// Σ |area vector|, rounded up.
+    pub area: f32,
+    /// Upper bounds of the means over the area of (|y|/radius)^k, k = 2 and 4, y relative to the centre.
+    pub spread: [f32; 2],
+    /// A_γ / (4π · area · radius^(n−1)), n = |γ|: numbers of the order of 1.
+    pub coefficients: [f32; COEFFICIENTS],
+}
+
+/// All clusters; those below one are contiguous.
+pub struct Clusters {
+    pub balls: Vec<Ball>,
+    pub links: Vec<Link>,
+    pub series: Vec<Series>,
+    /// The clusters at the top.
+    pub roots: Range<usize>,
+    /// Sources in the order of the Morton curve.
+    pub items: Vec<u32>,
+    pub frame: Frame,
+}
+
+/// What rounds 32-bit results of a few operations up: 8 units in the last place.
+const ROUND_UP: f64 = 1.0 + 5e-7;
+/// The same for sums of many positive numbers, four at a time, each no longer than a cluster.
+const ROUND_SUM_UP: f32 = 1.01;
+
+/// How far a corner can be from what 32-bit floats make of it: √3 · 2⁻²⁵, as coordinates are up to 1/2; and a little more.
+const CORNER_ROUNDING: f64 = 6e-8;
+
+/// A cluster while the tree is being built.
+#[derive(Clone, Copy)]
+struct Part {
+    area: f64,
+    center: Vec3,
+    moments: Moments,
+}
+
+impl Clusters {
+    pub fn build<S: Sources>(sources: &S, leaf_size: usize) -> Clusters {
+        let boxes: Vec<Aabb> =
+            (0..sources.len()).into_par_iter().map(|i| Aabb::around(sources.corners(i))).collect();
+        let bounds = boxes.par_iter().copied().reduce(|| Aabb::EMPTY, Aabb::union);
+        let bvh = Bvh::build(&boxes, leaf_size);
+        drop(boxes);
+        let frame = Frame::around(&bounds);
+        let (links, levels) = link(&bvh);
+        let corners = Corners::new(sources, bvh.items(), &frame);
+        let empty = Part { area: 0.0, center: Vec3::ZERO, moments: Moments::ZERO };
+        let mut parts = vec![empty; links.len()];
+        for level in levels.iter().rev() {
+            let (upper, lower) = parts.split_at_mut(level.end);
+            let parts = upper[level.clone()].par_iter_mut().zip(&links[level.clone()]);
+            parts.for_each_init(Vec::new, |members, (part, link)| {
+                let range = link.range();
+                *part = if link.is_leaf() {
+                    gather(sources, &bvh.items()[range], &frame, members);
+                    Part::of_sources::<S>(members)
+                } else {
+                    Part::of_parts(&lower[range.start - level.end..range.end - level.end])
+                };
+            });
+        }
+        let spans = spans(&links);
+        let (balls, series) =
+            (parts.par_iter().zip(&spans).map(|(part, span)| part.pack(&corners, span))).unzip();
+        let roots = levels.first().cloned().unwrap_or(0..0);
+        Clusters { balls, links, series, roots, items: bvh.items().to_vec(), frame }
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.balls[..])
+            + size_of_val(&self.links[..])
+            + size_of_val(&self.series[..])
+            + size_of_val(&self.items[..])
+    }
+}
+
+/// Links of all clusters, the children of one node after those of another, and the ranges of the levels.
+fn link(bvh: &Bvh) -> (Vec<Link>, Vec<Range<usize>>) {
+    let mut first_child = Vec::with_capacity(bvh.nodes().len());
+    let mut count = 0;
+    for node in bvh.nodes() {
+        first_child.push(count);
+        count += node.children.iter().filter(|c| **c != Child::Empty).count() as u32;
+    }
+    first_child.push(count);
+    let links = (bvh.nodes().iter().flat_map(|node| node.children))
+        .filter_map(|child| match child {
+            Child::Empty => None,
+            Child::Leaf { first, count } => Some(Link { first, count: count | LEAF }),
+            Child::Inner(node) => {
+                let (first, end) = (first_child[node as usize], first_child[node as usize + 1]);
+                Some(Link { first, count: end - first })
+            }
+        })
+        .collect();
+    let place = |node: usize| first_child[node] as usize;
+    let levels = bvh.levels().iter().map(|l| place(l.start)..place(l.end)).collect();
+    (links, levels)
+}
+
+/// The items below each cluster. Children come after their parents.
+fn spans(links: &[Link]) -> Vec<Range<usize>> {
+    let mut spans = vec![0..0; links.len()];
+    for (at, link) in links.iter().enumerate().rev() {
+        let range = link.range();
+        spans[at] = if link.is_leaf() { range } else { spans[range.start].start..spans[range.end - 1].end };
+    }
+    spans
+}
+
+impl Part {
+    fn of_sources<S: Sources>(members: &[Member]) -> Part {
+        let (mut area, mut weighted, mut middle) = (0.0, Vec3::ZERO, Aabb::EMPTY);
+        for Member { corners: [a, b, c], area_vector } in members {
+            let own = area_vector.length();
+            area += own;
+            weighted += own / 3.0 * (*a + *b + *c);
+            middle = middle.including(*a).including(*b).including(*c);
+        }
+        let center = narrowed(area, weighted, middle.center());
+        let mut moments = Moments::ZERO;
+        for Member { corners: [a, b, c], area_vector } in members {
+            if S::POINTS {
+                moments.add_point(*a - center, *area_vector);
+            } else {
+                moments.add_triangle([*a - center, *b - center, *c - center], *area_vector);
+            }
+        }
+        Part { area, center, moments }
+    }
+
+    fn of_parts(parts: &[Part]) -> Part {
+        let area = parts.iter().map(|p| p.area).sum();
+        let weighted = parts.iter().map(|p| p.area * p.center).sum();
+        let middle = Aabb::around(parts.iter().map(|p| p.center)).center();
+        let center = narrowed(area, weighted, middle);
+        let mut moments = Moments::ZERO;
+        parts.iter().for_each(|p| moments.add_cluster(&p.moments, p.center - center));
+        Part { area, center, moments }
+    }
+
+    fn pack(&self, corners: &Corners, span: &Range<usize>) -> (Ball, Series) {
+        let (radius, squares, fourths) = corners.spread(span, self.center);
+        let area = (self.area * ROUND_UP) as f32;
+        let safe = |x: f32| if x > 0.0 { 1.0 / f64::from(x) } else { 0.0 };
+        let (per_area, per_radius) = (safe(area), safe(radius));
+        let mut scale = per_area / (4.0 * PI);
+        let mut coefficients = [0.0; COEFFICIENTS];
+        for n in 1..5 {
+            let degree = n * n - 1..n * n + 2 * n;
+            let terms = &self.moments.coefficients[degree.clone()];
+            coefficients[degree].iter_mut().zip(terms).for_each(|(c, term)| *c = (scale * term) as f32);
+            scale *= per_radius;
+        }
+        // By Minkowski's inequality, corners that were moved by CORNER_ROUNDING move the power mean by no more.
+        let mean = |sum: f32, power: i32| {
+            let seen = (f64::from(sum * ROUND_SUM_UP) * per_area).powf(1.0 / f64::from(power));
+            let bound = ((seen + CORNER_ROUNDING) * per_radius).powi(power) * ROUND_UP;
+            bound.min(1.0) as f32
+        };
+        let spread = [mean(squares, 2), mean(fourths, 4)];
+        let [x, y, z] = self.center.to_array().map(|c| c as f32);
+        ([x, y, z, radius], Series { area, spread, coefficients })
+    }
+}
+
+/// A source in the unit frame.
+struct Member {
+    corners: [Vec3; 3],
+    area_vector: Vec3,
+}
+
+/// Copies sources of a leaf: all at once, as they are anywhere in memory.
+fn gather<S: Sources>(sources: &S, items: &[u32], frame: &Frame, members: &mut Vec<Member>) {
+    let scale = frame.scale * frame.scale;
+    members.clear();
+    members.extend(items.iter().map(|&i| {
+        let [a, b, c] = sources.corners(i as usize);
+        let corners = [frame.local(a), frame.local(b), frame.local(c)];
+        Member { corners, area_vector: scale * sources.area_vector(i as usize) }
+    }));
+}
+
+/// A centre that is exact in 32-bit floats, so that storing it rounds nothing.
+fn narrowed(area: f64, weighted: Vec3, otherwise: Vec3) -> Vec3 {
+    let center = if area > 0.0 { weighted / area } else { otherwise };
+    Vec3::from_array(center.to_array().map(|x| f64::from(x as f32)))
+}
+
+/// Corners of all sources in tree order, and areas, in 32-bit floats: for the extents of clusters only.
+struct Corners {
+    /// x, y, z of the corners of each source, and a share of its area.
+    corners: Vec<[f32; 4]>,
+    for_each: usize,
+}
+
+impl Corners {
+    fn new<S: Sources>(sources: &S, items: &[u32], frame: &Frame) -> Corners {
+        let for_each = if S::POINTS { 1 } else { 3 };
+        let scale = frame.scale * frame.scale / for_each as f64;
+        let corners = (items.par_iter())
+            .flat_map_iter(|&i| {
+                let share = (scale * sources.area_vector(i as usize).length() * ROUND_UP) as f32;
+                sources.corners(i as usize).into_iter().take(for_each).map(move |corner| {
+                    let [x, y, z] = frame.local(corner).to_array().map(|x| x as f32);
+                    [x, y, z, share]
+                })
+            })
+            .collect();
+        Corners { corners, for_each }
+    }
+
+    /// The largest distance of a corner in `span` from `center`, rounded up, and the sums of area times the square and the
+    /// fourth power of the distance. A power is convex, so that the mean over the corners is no less than that over the
+    /// triangle.
+    fn spread(&self, span: &Range<usize>, center: Vec3) -> (f32, f32, f32) {
+        let [x, y, z] = center.to_array().map(|c| f32x4::splat(c as f32));
+        let corners = &self.corners[span.start * self.for_each..span.end * self.for_each];
+        let (mut largest, mut squares, mut fourths) = (f32x4::ZERO, f32x4::ZERO, f32x4::ZERO);
+        for group in corners.chunks(WIDTH) {
+            // Repeating a corner without its area changes nothing.
+            let at = |k: usize| {
+                let [x, y, z, share] = *group.get(k).unwrap_or(&group[0]);
+                f32x4::from([x, y, z, if k < group.len() { share } else { 0.0 }])
+            };
+            let [xs, ys, zs, shares] = f32x4::transpose([at(0), at(1), at(2), at(3)]);
+            let (dx, dy, dz) = (xs - x, ys - y, zs - z);
+            let square = dx * dx + dy * dy + dz * dz;
+            largest = largest.fast_max(square);
+            squares += shares * square;
+            fourths += shares * (square * square);
+        }
+        let farthest = largest.to_array().into_iter().fold(0.0, f32::max).sqrt();
+        let radius = farthest * ROUND_UP as f32 + CORNER_ROUNDING as f32;
+        (radius, sum_of_lanes(squares) as f32, sum_of_lanes(fourths) as f32)
+    }
+}

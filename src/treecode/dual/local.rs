@@ -1,0 +1,204 @@
+//! Local expansions: Taylor polynomials of far fields about the middle of a block of queries.
+use super::QueryLanes;
+use super::derivatives::REDUCED;
+use super::harmonic::place;
+use wide::f32x4;
+
+/// Highest degree.
+pub const MAX_DEGREE: usize = 5;
+/// Monomials in three variables up to that degree.
+const TERMS: usize = (MAX_DEGREE + 1) * (MAX_DEGREE + 2) * (MAX_DEGREE + 3) / 6;
+
+/// Place of the coefficients of y^b z^c x^a, a = 0 … `MAX_DEGREE` − b − c, which are contiguous.
+const fn line(b: usize, c: usize) -> usize {
+    let (mut at, mut z) = (0, 0);
+    while z < c {
+        let side = MAX_DEGREE + 1 - z;
+        at += side * (side + 1) / 2;
+        z += 1;
+    }
+    let side = MAX_DEGREE + 1 - c;
+    at + b * side - b * b.saturating_sub(1) / 2
+}
+
+/// [`line`] for each c and b.
+const LINES: [[usize; MAX_DEGREE + 1]; MAX_DEGREE + 1] = {
+    let mut lines = [[0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
+    let mut c = 0;
+    while c <= MAX_DEGREE {
+        let mut b = 0;
+        while b + c <= MAX_DEGREE {
+            lines[c][b] = line(b, c);
+            b += 1;
+        }
+        c += 1;
+    }
+    lines
+};
+
+/// Place of y^b z^c.
+#[inline(always)]
+fn place_of(b: usize, c: usize) -> usize {
+    LINES[c][b]
+}
+
+const INVERSE_FACTORIAL: [f64; MAX_DEGREE + 1] = [1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0];
+
+/// A polynomial Σ T_abc x^a y^b z^c up to `degree`, lengths in units of the block's radius.
+#[derive(Clone, Copy)]
+pub struct Local {
+    terms: [f64; TERMS],
+}
+
+impl Local {
+    pub const ZERO: Local = Local { terms: [0.0; TERMS] };
+
+    /// Adds derivatives L_β of a harmonic function, given with 0 and 1 in z, four lanes to be summed. Those with more in
+    /// z follow: L_(a,b,c) = −L_(a+2,b,c−2) − L_(a,b+2,c−2).
+    pub fn add_derivatives(&mut self, reduced: &[f32x4; REDUCED], degree: usize) {
+        for n in 0..=degree {
+            let mut rows = [[0.0; MAX_DEGREE + 1]; 2];
+            for (z, row) in rows.iter_mut().enumerate() {
+                let places = &reduced[place(n, z, 0)..place(n, z, (n + 1).saturating_sub(z))];
+                row.iter_mut().zip(places).for_each(|(l, lanes)| *l = sum_of_lanes(*lanes));
+            }
+            for c in 0..=n {
+                let row = &mut rows[c % 2];
+                if c >= 2 {
+                    (0..=n - c).for_each(|a| row[a] = -(row[a + 2] + row[a]));
+                }
+                for (a, l) in row[..=n - c].iter().enumerate() {
+                    let b = n - c - a;
+                    let factor = INVERSE_FACTORIAL[a] * INVERSE_FACTORIAL[b] * INVERSE_FACTORIAL[c];
+                    self.terms[place_of(b, c) + a] += factor * l;
+                }
+            }
+        }
+    }
+
+    /// The same polynomial about a point at `d` (in units of this block's radius), lengths multiplied by `ratio`, the
+    /// new radius over the old one (L2L). Exact up to rounding.
+    pub fn moved(&self, d: [f64; 3], ratio: f64, degree: usize) -> Local {
+        let mut terms = self.terms;
+        // Horner's scheme along each axis in turn.
+        for c in 0..=degree {
+            for b in 0..=degree - c {
+                let length = degree - b - c;
+                let start = place_of(b, c);
+                for first in 0..length {
+                    (first..length).rev().for_each(|a| terms[start + a] += d[0] * terms[start + a + 1]);
+                }
+            }
+        }
+        for c in 0..=degree {
+            for a in 0..=degree - c {
+                let length = degree - a - c;
+                for first in 0..length {
+                    for b in (first..length).rev() {
+                        terms[place_of(b, c) + a] += d[1] * terms[place_of(b + 1, c) + a];
+                    }
+                }
+            }
+        }
+        for b in 0..=degree {
+            for a in 0..=degree - b {
+                let length = degree - a - b;
+                for first in 0..length {
+                    for c in (first..length).rev() {
+                        terms[place_of(b, c) + a] += d[2] * terms[place_of(b, c + 1) + a];
+                    }
+                }
+            }
+        }
+        let mut powers = [1.0; MAX_DEGREE + 1];
+        (1..=MAX_DEGREE).for_each(|n| powers[n] = powers[n - 1] * ratio);
+        for c in 0..=degree {
+            for b in 0..=degree - c {
+                let start = place_of(b, c);
+                (0..=degree - b - c).for_each(|a| terms[start + a] *= powers[a + b + c]);
+            }
+        }
+        Local { terms }
+    }
+
+    /// The value in the middle, and how far the polynomial can be from it where |x|, |y|, |z| are up to `half`.
+    pub fn range(&self, half: [f64; 3], degree: usize) -> (f64, f64) {
+        let mut spread = 0.0;
+        let mut z = 1.0;
+        for c in 0..=degree {
+            let mut y = z;
+            for b in 0..=degree - c {
+                let mut x = y;
+                for a in 0..=degree - b - c {
+                    spread += x * self.terms[place_of(b, c) + a].abs();
+                    x *= half[0];
+                }
+                y *= half[1];
+            }
+            z *= half[2];
+        }
+        (self.terms[0], spread - self.terms[0].abs())
+    }
+
+    /// Values at queries, four in each group, given in units of the block's radius (L2P).
+    pub fn values(&self, queries: &[QueryLanes], degree: usize, values: &mut [f32x4]) {
+        match degree {
+            ..=2 => self.values_of::<2>(queries, values),
+            3 => self.values_of::<3>(queries, values),
+            4 => self.values_of::<4>(queries, values),
+            _ => self.values_of::<5>(queries, values),
+        }
+    }
+
+    fn values_of<const DEGREE: usize>(&self, queries: &[QueryLanes], values: &mut [f32x4]) {
+        let terms = self.terms.map(|t| f32x4::splat(t as f32));
+        let zero = f32x4::ZERO;
+        for ([x, y, z], value) in queries.iter().zip(values) {
+            let in_x = |b: usize, c: usize| {
+                let line = &terms[place_of(b, c)..][..=DEGREE - b - c];
+                line.iter().rev().fold(zero, |sum, term| sum * *x + *term)
+            };
+            let in_y = |c: usize| (0..=DEGREE - c).rev().fold(zero, |sum, b| sum * *y + in_x(b, c));
+            *value += (0..=DEGREE).rev().fold(zero, |sum, c| sum * *z + in_y(c));
+        }
+    }
+}
+
+/// The sum of four lanes, in f64.
+pub fn sum_of_lanes(lanes: f32x4) -> f64 {
+    let [a, b, c, d] = lanes.to_array().map(f64::from);
+    (a + b) + (c + d)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(local: &Local, p: [f32; 3]) -> f64 {
+        let mut values = [f32x4::ZERO];
+        local.values(&[p.map(f32x4::splat)], MAX_DEGREE, &mut values);
+        f64::from(values[0].to_array()[1])
+    }
+
+    #[test]
+    fn a_moved_polynomial_has_the_same_values() {
+        let local = Local { terms: std::array::from_fn(|i| ((i * 7919 % 31) as f64 - 15.0) / 15.0) };
+        let moved = local.moved([0.5, -0.25, 0.125], 0.5, MAX_DEGREE);
+        for p in [[0.0f32; 3], [0.5, -0.25, 0.75], [-1.0, 0.5, 0.25]] {
+            let old = [0.5 + 0.5 * p[0], -0.25 + 0.5 * p[1], 0.125 + 0.5 * p[2]];
+            assert!((value(&moved, p) - value(&local, old)).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn range_holds_the_values() {
+        let local = Local { terms: std::array::from_fn(|i| ((i * 7919 % 31) as f64 - 15.0) / 15.0) };
+        let (middle, spread) = local.range([0.5, 0.25, 0.125], MAX_DEGREE);
+        assert_eq!(middle, value(&local, [0.0; 3]) as f32 as f64 + (middle - middle as f32 as f64));
+        for corner in 0..8u8 {
+            let sign = |bit: u8| if corner >> bit & 1 == 1 { 1.0 } else { -1.0f32 };
+            let at = [0.5 * sign(0), 0.25 * sign(1), 0.125 * sign(2)];
+            assert!((value(&local, at) - middle).abs() <= spread + 1e-6);
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! Queries in a tree of blocks: of a lattice, or of points in the order of the Morton curve.
+use crate::bvh::{cut_at_highest_bit, morton_code};
+use crate::data::{BLOCK, Lattice};
+use crate::math::{Aabb, Vec3};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Most samples in a block whose walk is one task.
+const TASK: usize = 4096;
+
+/// Queries that come as a tree of blocks, down to [`BLOCK`] queries that lie close together.
+pub trait Targets: Sync {
+    type Block: Clone + Send + Sync;
+
+    /// The block of all queries; none if there are none.
+    fn whole(&self) -> Option<Self::Block>;
+    fn len(&self, block: &Self::Block) -> usize;
+    /// The smallest box around the queries of a block.
+    fn bounds(&self, block: &Self::Block) -> Aabb;
+    /// Calls `child` for each part of a block of more than [`BLOCK`] queries.
+    fn split(&self, block: &Self::Block, child: impl FnMut(Self::Block));
+    /// Calls `sample(index, position)` for each query of a block, neighbours after each other.
+    fn for_each(&self, block: &Self::Block, sample: impl FnMut(usize, Vec3));
+    /// Indices of queries that are not finite, and in no block.
+    fn outcasts(&self) -> &[u32];
+
+    /// Blocks that are walked each from the top: one task each.
+    fn tasks(&self) -> Vec<Self::Block> {
+        let mut tasks = Vec::new();
+        let mut stack: Vec<_> = self.whole().into_iter().collect();
+        while let Some(block) = stack.pop() {
+            if self.len(&block) <= TASK {
+                tasks.push(block);
+            } else {
+                let first = stack.len();
+                self.split(&block, |child| stack.push(child));
+                stack[first..].reverse();
+            }
+        }
+        tasks
+    }
+}
+
+/// A block of queries, as callers see it.
+pub struct BlockView<'a, T: Targets> {
+    pub targets: &'a T,
+    pub block: &'a T::Block,
+}
+
+impl<T: Targets> BlockView<'_, T> {
+    pub fn bounds(&self) -> Aabb {
+        self.targets.bounds(self.block)
+    }
+
+    /// Calls `sample(index, position)` for each query of the block.
+    pub fn for_each(&self, sample: impl FnMut(usize, Vec3)) {
+        self.targets.for_each(self.block, sample);
+    }
+}
+
+/// The samples of a lattice, all of its coordinates finite.
+pub struct LatticeTargets {
+    lattice: Lattice,
+    /// Samples along the axes of a block of [`BLOCK`].
+    unit: [usize; 3],
+    /// The samples of such a block in Morton order.
+    order: [[u8; 3]; BLOCK],
+}
+
+/// Samples of a lattice: the first and the one after the last along each axis, in units of blocks.
+pub type Cells = [Range<usize>; 3];
+
+impl LatticeTargets {
+    pub fn new(lattice: &Lattice) -> LatticeTargets {
+        let unit = if lattice.counts[2] == 1 { [8, 8, 1] } else { [4; 3] };
+        LatticeTargets { lattice: *lattice, unit, order: order_within(unit) }
+    }
+
+    /// The samples of a block.
+    fn samples(&self, block: &Cells) -> [Range<usize>; 3] {
+        [0, 1, 2].map(|axis| {
+            let end = (block[axis].end * self.unit[axis]).min(self.lattice.counts[axis]);
+            block[axis].start * self.unit[axis]..end
+        })
+    }
+}
+
+impl Targets for LatticeTargets {
+    type Block = Cells;
+
+    fn whole(&self) -> Option<Cells> {
+        let cells = [0, 1, 2].map(|axis| 0..self.lattice.counts[axis].div_ceil(self.unit[axis]));
+        (!self.lattice.is_empty()).then_some(cells)
+    }
+
+    fn len(&self, block: &Cells) -> usize {
+        self.samples(block).iter().map(|r| r.len()).product()
+    }
+
+    fn bounds(&self, block: &Cells) -> Aabb {
+        let samples = self.samples(block);
+        let first = self.lattice.point([0, 1, 2].map(|axis| samples[axis].start));
+        let last = self.lattice.point([0, 1, 2].map(|axis| samples[axis].end - 1));
+        Aabb { min: first.min(last), max: first.max(last) }
+    }
+
+    /// Halves the axes that are not much shorter than the longest.
+    fn split(&self, block: &Cells, mut child: impl FnMut(Cells)) {
+        let size = [0, 1, 2]
+            .map(|axis| (block[axis].len() * self.unit[axis]) as f64 * self.lattice.spacing[axis].abs());
+        let divisible = |axis: usize| block[axis].len() > 1;
+        let longest = (0..3).filter(|a| divisible(*a)).map(|a| size[a]).fold(0.0, f64::max);
+        let parts = [0, 1, 2].map(|axis| {
+            let Range { start, end } = block[axis];
+            let is_short = size[axis] < 0.6 * longest;
+            let cut = divisible(axis) && !is_short;
+            let middle = if cut { start + (end - start).div_ceil(2) } else { end };
+            [start..middle, middle..end]
+        });
+        for corner in 0..8 {
+            let cells = [0, 1, 2].map(|axis| parts[axis][corner >> axis & 1].clone());
+            if cells.iter().all(|r| !r.is_empty()) {
+                child(cells);
+            }
+        }
+    }
+
+    fn for_each(&self, block: &Cells, mut sample: impl FnMut(usize, Vec3)) {
+        let mut give = |s: [usize; 3]| sample(self.lattice.index(s), self.lattice.point(s));
+        let [xs, ys, zs] = self.samples(block);
+        if block.iter().all(|r| r.len() == 1) {
+            for [i, j, k] in self.order {
+                let s = [xs.start + usize::from(i), ys.start + usize::from(j), zs.start + usize::from(k)];
+                if s[0] < xs.end && s[1] < ys.end && s[2] < zs.end {
+                    give(s);
+                }
+            }
+            return;
+        }
+        for k in zs {
+            for j in ys.clone() {
+                xs.clone().for_each(|i| give([i, j, k]));
+            }
+        }
+    }
+
+    fn outcasts(&self) -> &[u32] {
+        &[]
+    }
+}
+
+/// Places within a block in Morton order, so that the first four and eight lie close together too.
+fn order_within(unit: [usize; 3]) -> [[u8; 3]; BLOCK] {
+    let flat = unit[2] == 1;
+    let step = if flat { 2 } else { 3 };
+    let bit = |place: usize, axis: usize| {
+        (0..3).fold(0, |c, level| c | (place >> (step * level + axis) & 1) << level) as u8
+    };
+    std::array::from_fn(|p| [bit(p, 0), bit(p, 1), if flat { 0 } else { bit(p, 2) }])
+}
+
+/// Points anywhere, sorted along the Morton curve: 12 bytes for each.
+pub struct PointTargets<'a> {
+    points: &'a [Vec3],
+    order: Vec<u32>,
+    codes: Vec<u64>,
+    outcasts: Vec<u32>,
+}
+
+impl<'a> PointTargets<'a> {
+    pub fn new(points: &'a [Vec3]) -> PointTargets<'a> {
+        let finite = points.par_iter().filter(|p| p.is_finite());
+        let bounds = finite.map(|p| Aabb { min: *p, max: *p }).reduce(|| Aabb::EMPTY, Aabb::union);
+        let mut sorted: Vec<(u64, u32)> = (points.par_iter().enumerate())
+            .filter(|(_, p)| p.is_finite())
+            .map(|(i, p)| (morton_code(*p, &bounds), i as u32))
+            .collect();
+        sorted.par_sort_unstable();
+        PointTargets {
+            points,
+            order: sorted.par_iter().map(|s| s.1).collect(),
+            codes: sorted.par_iter().map(|s| s.0).collect(),
+            outcasts: (0..points.len() as u32).filter(|&i| !points[i as usize].is_finite()).collect(),
+        }
+    }
+}
+
+impl Targets for PointTargets<'_> {
+    type Block = Range<usize>;
+
+    fn whole(&self) -> Option<Range<usize>> {
+        (!self.order.is_empty()).then_some(0..self.order.len())
+    }
+
+    fn len(&self, block: &Range<usize>) -> usize {
+        block.len()
+    }
+
+    fn bounds(&self, block: &Range<usize>) -> Aabb {
+        Aabb::around(self.order[block.clone()].iter().map(|&i| self.points[i as usize]))
+    }
+
+    /// Cuts where the codes change, in up to eight, as long as they are too long for a block.
+    fn split(&self, block: &Range<usize>, mut child: impl FnMut(Range<usize>)) {
+        let mut parts = vec![block.clone()];
+        for _ in 0..3 {
+            let cut = |part: Range<usize>| {
+                if part.len() <= BLOCK {
+                    return [part, 0..0];
+                }
+                let middle = cut_at_highest_bit(&self.codes, &part);
+                [part.start..middle, middle..part.end]
+            };
+            parts = parts.into_iter().flat_map(cut).filter(|p| !p.is_empty()).collect();
+        }
+        parts.into_iter().for_each(&mut child);
+    }
+
+    fn for_each(&self, block: &Range<usize>, mut sample: impl FnMut(usize, Vec3)) {
+        for &i in &self.order[block.clone()] {
+            sample(i as usize, self.points[i as usize]);
+        }
+    }
+
+    fn outcasts(&self) -> &[u32] {
+        &self.outcasts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check<T: Targets>(targets: &T, count: usize) {
+        let mut seen = vec![0; count];
+        let mut stack = targets.tasks();
+        assert!(stack.iter().all(|t| targets.len(t) <= TASK));
+        while let Some(block) = stack.pop() {
+            let bounds = targets.bounds(&block);
+            let mut inside = 0;
+            targets.for_each(&block, |_, p| inside += usize::from(bounds.contains(p)));
+            assert_eq!(inside, targets.len(&block));
+            if inside <= BLOCK {
+                targets.for_each(&block, |i, _| seen[i] += 1);
+            } else {
+                targets.split(&block, |child| stack.push(child));
+            }
+        }
+        targets.outcasts().iter().for_each(|&i| seen[i as usize] += 1);
+        assert!(seen.iter().all(|s| *s == 1));
+    }
+
+    #[test]
+    fn every_sample_of_a_lattice_is_in_one_block() {
+        for counts in [[9, 5, 7], [17, 20, 1], [1, 1, 1], [3, 1, 40], [0, 3, 3], [40, 33, 35], [1, 300, 1]] {
+            let lattice = Lattice { origin: Vec3::ZERO, spacing: Vec3::new(1.0, 0.1, 3.0), counts };
+            check(&LatticeTargets::new(&lattice), lattice.len());
+        }
+    }
+
+    #[test]
+    fn every_point_is_in_one_block_or_cast_out() {
+        let mut points: Vec<Vec3> = (0..5000).map(|i| Vec3::new(f64::from(i * i % 97), 0.5, 1.0)).collect();
+        check(&PointTargets::new(&points), 5000);
+        points[17].x = f64::NAN;
+        points[4].y = f64::INFINITY;
+        check(&PointTargets::new(&points), 5000);
+        assert_eq!(PointTargets::new(&points).outcasts(), [4, 17]);
+        check(&PointTargets::new(&[Vec3::NAN]), 1);
+        check(&PointTargets::new(&[]), 0);
+    }
+}
