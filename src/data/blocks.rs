@@ -53,6 +53,28 @@ pub fn fill_in_blocks<T: Send, S: Default>(
     monitor.report(1.0, stage)
 }
 
+/// Sets `values` in runs of up to [`BLOCK`] by `fill(index of the first, run, scratch)`, in parallel, with reports of
+/// `stage` to `monitor` between blocks of runs.
+///
+/// # Errors
+/// If and only if the monitor cancels; the values are then partly set.
+pub fn fill_blocks<T: Send, S: Default>(
+    values: &mut [T],
+    fill: impl Fn(usize, &mut [T], &mut S) + Sync,
+    stage: &str,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
+    let total = values.len();
+    for (block, run) in values.chunks_mut(SAMPLES_PER_REPORT).enumerate() {
+        let start = block * SAMPLES_PER_REPORT;
+        monitor.report(start as f64 / total as f64, stage)?;
+        run.par_chunks_mut(BLOCK).enumerate().for_each_init(S::default, |scratch, (task, chunk)| {
+            fill(start + task * BLOCK, chunk, scratch);
+        });
+    }
+    monitor.report(1.0, stage)
+}
+
 /// Samples along each axis of a cube of lattice samples.
 const CUBE: usize = 4;
 /// Most samples in a block of a lattice.

@@ -11,4 +11,4 @@ pub use predicates::{
     Sign, covers, normal_signs, orient_yz, perturbed_side_of_plane, side_of_edge, side_of_plane, tie_break,
     touches,
 };
-pub use triangle::{area_vector, barycentre, solid_angle};
+pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};

@@ -10,6 +10,23 @@ pub fn barycentre([a, b, c]: [Vec3; 3]) -> Vec3 {
     (a + b + c) / 3.0
 }
 
+/// Distance from `q` to the nearest point of triangle `abc`; of a triangle without area, to its longest side or farther in
+/// by rounding only.
+pub fn distance_to_triangle(q: Vec3, [a, b, c]: [Vec3; 3]) -> f64 {
+    let normal = (b - a).cross(c - a);
+    let is_above = |s: Vec3, t: Vec3| normal.cross(t - s).dot(q - s) >= 0.0;
+    if normal != Vec3::ZERO && is_above(a, b) && is_above(b, c) && is_above(c, a) {
+        return (q - a).dot(normal).abs() / normal.length();
+    }
+    let to_side = |s: Vec3, t: Vec3| {
+        let along = (q - s).dot(t - s) / (t - s).length_squared();
+        // NaN for a side without length.
+        let along = if along > 0.0 { along.min(1.0) } else { 0.0 };
+        q.distance(s + along * (t - s))
+    };
+    to_side(a, b).min(to_side(b, c)).min(to_side(c, a))
+}
+
 /// Signed solid angle of triangle `abc` seen from `q`, in steradians, within ±2π.
 ///
 /// Positive where the triangle's normal points away from `q`. Zero in the triangle's own plane, on the
@@ -38,6 +55,21 @@ mod tests {
         assert!((solid_angle(Vec3::ZERO, octant) - PI / 2.0).abs() < 1e-15);
         let [a, b, c] = octant;
         assert!((solid_angle(Vec3::ZERO, [a, c, b]) + PI / 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_nearest_point_may_be_inside_on_a_side_or_a_corner() {
+        let t = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let cases = [
+            (Vec3::new(0.2, 0.3, -2.0), 2.0),
+            (Vec3::new(0.5, -3.0, 4.0), 5.0),
+            (Vec3::new(1.0, 1.0, 0.0), 0.5f64.sqrt()),
+            (Vec3::new(4.0, 0.0, 4.0), 5.0),
+        ];
+        for (q, expected) in cases {
+            assert!((distance_to_triangle(q, t) - expected).abs() < 1e-15, "{q}");
+        }
+        assert_eq!(distance_to_triangle(Vec3::Z, [Vec3::ZERO, Vec3::X, 2.0 * Vec3::X]), 1.0);
     }
 
     #[test]

@@ -1,11 +1,9 @@
 use super::voxel_surface;
 use crate::data::{
-    Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, SurfaceMesh, fill_in_blocks,
-    for_each_lattice_block, zeroed,
+    Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, SurfaceMesh, fill_in_blocks, zeroed,
 };
 use crate::levelset::cells_of_shape;
-use crate::math::Vec3;
-use crate::winding::{Scratch, WindingField};
+use crate::winding::{FieldError, Scratch, WindingField};
 
 /// Which samples are asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,6 +42,16 @@ pub enum VoxelError {
     OutOfMemory(#[from] OutOfMemory),
     #[error("a threshold of {0} is not possible: it must be a finite number")]
     BadThreshold(f64),
+}
+
+impl From<FieldError> for VoxelError {
+    fn from(error: FieldError) -> VoxelError {
+        match error {
+            FieldError::Lattice(error) => error.into(),
+            FieldError::Cancelled(error) => error.into(),
+            FieldError::OutOfMemory(error) => error.into(),
+        }
+    }
 }
 
 /// Cells of a lattice, each inside or outside; one bit for each.
@@ -112,25 +120,10 @@ pub fn voxelize(
         return Err(VoxelError::BadThreshold(config.threshold));
     }
     let bits = match config.method {
-        VoxelMethod::Lattice => every_sample(field, lattice, config.threshold, monitor)?,
+        VoxelMethod::Lattice => field.classify_lattice(lattice, config.threshold, monitor)?,
         VoxelMethod::Continuation => along_the_level_set(field, lattice, config.threshold, monitor)?,
     };
     Ok(Voxels { lattice: *lattice, bits })
-}
-
-fn every_sample(
-    field: &WindingField,
-    lattice: &Lattice,
-    threshold: f64,
-    monitor: &dyn Monitor,
-) -> Result<Vec<u8>, VoxelError> {
-    let mut bits = zeroed(lattice.len().div_ceil(8))?;
-    let block = |points: &[Vec3], results: &mut [bool], scratch: &mut Scratch| {
-        field.exceeds_block(points, threshold, results, scratch);
-    };
-    let store = |index: usize, inside: bool| bits[index / 8] |= u8::from(inside) << (index % 8);
-    for_each_lattice_block(lattice, block, store, "voxels", monitor)?;
-    Ok(bits)
 }
 
 #[derive(Clone, Copy, Default, PartialEq, Eq)]

@@ -34,6 +34,11 @@ impl<T: Copy + Default + Send + Sync> Buckets<T> {
         })
     }
 
+    /// Number of items in all buckets.
+    pub fn len(&self) -> usize {
+        self.chunks.iter().map(|(items, _)| items.len()).sum()
+    }
+
     /// Number of items in a bucket.
     pub fn count(&self, bucket: usize) -> usize {
         self.chunks.iter().map(|(_, starts)| (starts[bucket + 1] - starts[bucket]) as usize).sum()

@@ -153,7 +153,12 @@ mod tests {
         let mut triangles = tube.triangles().to_vec();
         for k in 0..1000u32 {
             let first = positions.len() as u32;
-            positions.extend([tube.positions()[0], Vec3::splat(f64::from(k)), Vec3::X * f64::from(k), Vec3::Y]);
+            positions.extend([
+                tube.positions()[0],
+                Vec3::splat(f64::from(k)),
+                Vec3::X * f64::from(k),
+                Vec3::Y,
+            ]);
             let [o, a, b, c] = [0, 1, 2, 3].map(|i| first + i);
             triangles.extend([[o, a, b], [o, b, c], [o, c, a], [a, c, b]]);
         }

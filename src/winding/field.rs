@@ -1,10 +1,15 @@
+mod gradient;
+
+use super::error_model::{CLOUD_ERROR, COARSE_BETA, ErrorModel, FINE_BETA, SOUP_ERROR};
+use super::soup_field::{HALF, SoupField};
 use crate::data::{
     BLOCK, Cancelled, Grid, Lattice, LatticeError, Monitor, OrientedCloud, OutOfMemory, Shape, TriangleSoup,
-    fill_in_blocks, for_each_lattice_block, zeroed,
+    fill_blocks, for_each_lattice_block, zeroed,
 };
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{Order, Scratch, Tree, TreeConfig};
 use serde::Serialize;
+use std::sync::OnceLock;
 
 /// How a field is prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,14 +54,25 @@ impl Default for Accuracy {
 }
 
 /// What was built, and what it costs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct FieldReport {
     /// How the field is evaluated, in words.
     pub method: &'static str,
     /// Triangles or points.
     pub elements: usize,
+    /// Net boundary edges of a soup: where its triangles are not closed.
+    pub boundary_edges: usize,
+    /// Triangles that close the openings.
+    pub caps: usize,
+    /// Components with openings that are closed by caps.
+    pub capped_components: usize,
+    /// Components with so many openings that their triangles are summed singly.
+    pub loose_components: usize,
+    /// Whether inside tests are proven right, and not only measured.
+    pub is_certified: bool,
+    /// Nodes of the tree, if there is one.
     pub nodes: usize,
-    /// Memory the tree takes.
+    /// Memory the field takes beside the shape.
     pub bytes: usize,
 }
 
@@ -84,43 +100,33 @@ pub enum FieldError {
 /// ```
 pub struct WindingField {
     shape: Shape,
-    tree: AnyTree,
+    config: TreeConfig,
+    engine: Engine,
+    /// The paper's evaluator of a soup, built when its parameters are asked for.
+    of_paper: OnceLock<Tree<TriangleSoup>>,
     bounds: Aabb,
     report: FieldReport,
 }
 
-enum AnyTree {
-    Soup(Tree<TriangleSoup>),
+enum Engine {
+    Soup(Box<SoupField>),
     Cloud(Tree<OrientedCloud>),
 }
 
-/// β of the first and the second look of a classification.
-const COARSE_BETA: f64 = 2.0;
-const FINE_BETA: f64 = 6.0;
-const COARSE: Accuracy = Accuracy::Explicit { order: Order::Two, beta: COARSE_BETA };
-
-/// Below this tolerance the far field's 32-bit floats are not good enough, and the direct sum takes over.
+/// Below this tolerance the far field's 32-bit floats are not good enough, and exact sums take over.
 const FINEST_EXPANSION: f64 = 1e-5;
 
 impl WindingField {
-    /// Builds the tree and its moments, in parallel: about one sort of the elements.
+    /// Builds the field, in parallel: for a soup in time linear in its triangles, for a cloud about one sort.
     pub fn new(shape: impl Into<Shape>, config: FieldConfig) -> WindingField {
         let shape = shape.into();
-        let tree_config = TreeConfig { leaf_size: config.leaf_size };
-        let tree = match &shape {
-            Shape::Soup(soup) => AnyTree::Soup(Tree::build(&**soup, &tree_config)),
-            Shape::Cloud(cloud) => AnyTree::Cloud(Tree::build(&**cloud, &tree_config)),
+        let config = TreeConfig { leaf_size: config.leaf_size };
+        let engine = match &shape {
+            Shape::Soup(soup) => Engine::Soup(Box::new(SoupField::new(soup.clone(), &config))),
+            Shape::Cloud(cloud) => Engine::Cloud(Tree::build(&**cloud, &config)),
         };
-        let (nodes, bytes) = match &tree {
-            AnyTree::Soup(tree) => (tree.nodes(), tree.bytes()),
-            AnyTree::Cloud(tree) => (tree.nodes(), tree.bytes()),
-        };
-        let method = match shape {
-            Shape::Soup(_) => "fast winding number of triangles",
-            Shape::Cloud(_) => "fast winding number of points",
-        };
-        let report = FieldReport { method, elements: shape.len(), nodes, bytes };
-        WindingField { bounds: shape.bounds(), shape, tree, report }
+        let report = report(&shape, &engine);
+        WindingField { bounds: shape.bounds(), shape, config, engine, of_paper: OnceLock::new(), report }
     }
 
     pub fn shape(&self) -> &Shape {
@@ -136,6 +142,21 @@ impl WindingField {
         &self.report
     }
 
+    /// Points of a soup whose inside test needed an exact sum, in all tests so far.
+    pub fn refined(&self) -> usize {
+        match &self.engine {
+            Engine::Soup(soup) => soup.refined(),
+            Engine::Cloud(_) => 0,
+        }
+    }
+
+    /// Builds ahead of time what queries at scattered points need.
+    pub fn prepare_points(&self) {
+        if let Engine::Soup(soup) = &self.engine {
+            soup.prepare_points();
+        }
+    }
+
     /// The winding number at `q`: 1 inside a closed shape, 0 outside, NaN where `q` is not finite.
     pub fn at(&self, q: Vec3, accuracy: Accuracy) -> f64 {
         self.at_with(q, accuracy, &mut Scratch::default())
@@ -143,37 +164,48 @@ impl WindingField {
 
     /// [`WindingField::at`] with scratch space that many queries share.
     pub fn at_with(&self, q: Vec3, accuracy: Accuracy, scratch: &mut Scratch) -> f64 {
-        match (self.expansion_for(accuracy), &self.tree) {
-            (None, _) => self.direct(q),
-            (Some((order, beta)), AnyTree::Soup(tree)) => tree.at(q, order, beta, scratch),
-            (Some((order, beta)), AnyTree::Cloud(tree)) => tree.at(q, order, beta, scratch),
+        if let (Engine::Cloud(tree), Some((order, beta))) = (&self.engine, self.expansion_for(accuracy)) {
+            return tree.at(q, order, beta, scratch);
         }
+        let mut value = [0.0];
+        self.at_block(&[q], &mut value, accuracy, scratch);
+        value[0]
     }
 
-    /// Winding numbers at up to 64 points that lie close together.
+    /// Winding numbers at up to 64 points.
     fn at_block(&self, points: &[Vec3], values: &mut [f64], accuracy: Accuracy, scratch: &mut Scratch) {
-        match (self.expansion_for(accuracy), &self.tree) {
-            (None, _) => points.iter().zip(values).for_each(|(q, value)| *value = self.direct(*q)),
-            (Some((order, beta)), AnyTree::Soup(tree)) => tree.at_block(points, values, order, beta, scratch),
-            (Some((order, beta)), AnyTree::Cloud(tree)) => {
-                tree.at_block(points, values, order, beta, scratch)
+        let expansion = self.expansion_for(accuracy);
+        match (&self.engine, expansion, accuracy) {
+            (Engine::Soup(_), Some((order, beta)), Accuracy::Explicit { .. }) => {
+                self.of_paper().at_block(points, values, order, beta, scratch);
+            }
+            (Engine::Soup(soup), _, _) => soup.values(points, soup.fraction_by(expansion), values, scratch),
+            (Engine::Cloud(tree), Some((order, beta)), _) => {
+                tree.at_block(points, values, order, beta, scratch);
+            }
+            (Engine::Cloud(tree), None, _) => {
+                points.iter().zip(values).for_each(|(q, value)| *value = tree.direct(*q));
             }
         }
     }
 
-    /// Order and β that reach an accuracy; none where only the direct sum does.
+    /// The paper's evaluator. Built outside of the cell that holds it: a thread that waited for another to build could be
+    /// the one whose help that other waits for.
+    fn of_paper(&self) -> &Tree<TriangleSoup> {
+        let Shape::Soup(soup) = &self.shape else { unreachable!("clouds have their tree from the start") };
+        if let Some(tree) = self.of_paper.get() {
+            return tree;
+        }
+        let _ = self.of_paper.set(Tree::build(&**soup, &self.config));
+        self.of_paper.get().expect("it was set just now, here or by another thread")
+    }
+
+    /// Order and β that reach an accuracy; none where only an exact sum does.
     fn expansion_for(&self, accuracy: Accuracy) -> Option<(Order, f64)> {
         match accuracy {
             Accuracy::Explicit { order, beta } => Some((order, beta)),
             Accuracy::Tolerance(t) if t < FINEST_EXPANSION => None,
             Accuracy::Tolerance(t) => Some((Order::Two, self.error_model().beta(t))),
-        }
-    }
-
-    fn direct(&self, q: Vec3) -> f64 {
-        match &self.tree {
-            AnyTree::Soup(tree) => tree.direct(q),
-            AnyTree::Cloud(tree) => tree.direct(q),
         }
     }
 
@@ -194,9 +226,24 @@ impl WindingField {
         accuracy: Accuracy,
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, FieldError> {
-        let value = |i: usize, scratch: &mut Scratch| self.at_with(points[i], accuracy, scratch);
         let mut values = zeroed(points.len())?;
-        fill_in_blocks(&mut values, value, "winding numbers", monitor)?;
+        monitor.report(0.0, "winding numbers")?;
+        match (accuracy, &self.engine) {
+            (Accuracy::Explicit { .. }, Engine::Soup(_)) => drop(self.of_paper()),
+            _ => self.prepare_points(),
+        }
+        let block = |start: usize, values: &mut [f64], scratch: &mut Scratch| match &self.engine {
+            Engine::Cloud(_) => {
+                let singly = |(i, value): (usize, &mut f64)| {
+                    *value = self.at_with(points[start + i], accuracy, scratch);
+                };
+                values.iter_mut().enumerate().for_each(singly);
+            }
+            Engine::Soup(_) => {
+                self.at_block(&points[start..start + values.len()], values, accuracy, scratch);
+            }
+        };
+        fill_blocks(&mut values, block, "winding numbers", monitor)?;
         Ok(values)
     }
 
@@ -210,6 +257,13 @@ impl WindingField {
         accuracy: Accuracy,
         monitor: &dyn Monitor,
     ) -> Result<Grid<f64>, FieldError> {
+        if let (Engine::Soup(soup), Accuracy::Tolerance(_)) = (&self.engine, accuracy) {
+            let by = soup.fraction_by(self.expansion_for(accuracy));
+            return Ok(Grid { lattice: *lattice, values: soup.lattice_values(lattice, by, monitor)? });
+        }
+        if matches!(self.engine, Engine::Soup(_)) {
+            self.of_paper();
+        }
         let mut values = zeroed(lattice.len())?;
         let block = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
             self.at_block(points, results, accuracy, scratch);
@@ -219,60 +273,74 @@ impl WindingField {
         Ok(Grid { lattice: *lattice, values })
     }
 
-    /// The gradient of the winding number at `q`, per millimetre: it points inward. NaN where `q` is not finite.
-    ///
-    /// `accuracy` chooses the clusters as it does for w; where only the direct sum reaches it, so does the gradient's
-    /// (see [`super::winding_gradient`] for what it is on the surface).
-    pub fn gradient(&self, q: Vec3, accuracy: Accuracy) -> Vec3 {
-        self.gradient_with(q, accuracy, &mut Scratch::default())
-    }
-
-    fn gradient_with(&self, q: Vec3, accuracy: Accuracy, scratch: &mut Scratch) -> Vec3 {
-        match (self.expansion_for(accuracy), &self.tree) {
-            (None, AnyTree::Soup(tree)) => tree.direct_gradient(q),
-            (None, AnyTree::Cloud(tree)) => tree.direct_gradient(q),
-            (Some((order, beta)), AnyTree::Soup(tree)) => tree.gradient(q, order, beta, scratch),
-            (Some((order, beta)), AnyTree::Cloud(tree)) => tree.gradient(q, order, beta, scratch),
-        }
-    }
-
-    /// Gradients of the winding number at `points`, in their order.
-    ///
-    /// # Errors
-    /// If and only if `monitor` cancels or the gradients do not fit in memory.
-    pub fn gradients(
-        &self,
-        points: &[Vec3],
-        accuracy: Accuracy,
-        monitor: &dyn Monitor,
-    ) -> Result<Vec<Vec3>, FieldError> {
-        let value = |i: usize, scratch: &mut Scratch| self.gradient_with(points[i], accuracy, scratch);
-        let mut gradients = zeroed(points.len())?;
-        fill_in_blocks(&mut gradients, value, "gradients", monitor)?;
-        Ok(gradients)
-    }
-
-    /// Whether w ≥ 1/2 at each of `points`.
+    /// Whether each of `points` is inside, w ≥ 1/2; for soups the solid counts as closed: a point on the surface is inside
+    /// if and only if some region that touches it is.
     ///
     /// # Errors
     /// If and only if `monitor` cancels or the answers do not fit in memory.
     pub fn contains(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<bool>, FieldError> {
         let mut inside = zeroed(points.len())?;
-        let value = |i: usize, scratch: &mut Scratch| self.exceeds(points[i], 0.5, scratch);
-        fill_in_blocks(&mut inside, value, "inside test", monitor)?;
+        monitor.report(0.0, "inside test")?;
+        self.prepare_points();
+        let block = |start: usize, results: &mut [bool], scratch: &mut Scratch| match &self.engine {
+            Engine::Cloud(_) => {
+                let singly = |(i, result): (usize, &mut bool)| {
+                    *result = self.exceeds(points[start + i], HALF, scratch);
+                };
+                results.iter_mut().enumerate().for_each(singly);
+            }
+            Engine::Soup(_) => {
+                self.exceeds_block(&points[start..start + results.len()], HALF, results, scratch);
+            }
+        };
+        fill_blocks(&mut inside, block, "inside test", monitor)?;
         Ok(inside)
     }
 
-    /// Whether w ≥ 1/2 at `q`.
-    pub fn contains_point(&self, q: Vec3) -> bool {
-        self.exceeds(q, 0.5, &mut Scratch::default())
+    /// Which samples of a lattice have w ≥ `threshold`: one bit for each, lowest first, x fastest. Samples on the surface
+    /// count as in [`WindingField::contains`].
+    ///
+    /// # Errors
+    /// If and only if `monitor` cancels or the bits do not fit in memory.
+    pub fn classify_lattice(
+        &self,
+        lattice: &Lattice,
+        threshold: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u8>, FieldError> {
+        if let Engine::Soup(soup) = &self.engine {
+            if soup.is_certified() {
+                return soup.lattice_bits(lattice, threshold, monitor);
+            }
+            soup.prepare_points();
+        }
+        let mut bits = zeroed(lattice.len().div_ceil(8))?;
+        let block = |points: &[Vec3], results: &mut [bool], scratch: &mut Scratch| {
+            self.exceeds_block(points, threshold, results, scratch);
+        };
+        let store = |index: usize, inside: bool| bits[index / 8] |= u8::from(inside) << (index % 8);
+        for_each_lattice_block(lattice, block, store, "inside test", monitor)?;
+        Ok(bits)
     }
 
-    /// Whether w ≥ `threshold` at `q`: asked coarsely first, and finer only while the answer is within the error of
-    /// the threshold, at last by the direct sum.
+    /// Whether `q` is inside.
+    pub fn contains_point(&self, q: Vec3) -> bool {
+        self.exceeds(q, HALF, &mut Scratch::default())
+    }
+
+    /// Whether w ≥ `threshold` at `q`, as in [`WindingField::contains`].
     pub fn exceeds(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> bool {
-        let w = self.at_with(q, COARSE, scratch);
-        self.decide(q, w, threshold, scratch)
+        match &self.engine {
+            Engine::Soup(_) => {
+                let mut result = [false];
+                self.exceeds_block(&[q], threshold, &mut result, scratch);
+                result[0]
+            }
+            Engine::Cloud(tree) => {
+                let w = tree.at(q, Order::Two, COARSE_BETA, scratch);
+                decide(tree, q, w, threshold, scratch)
+            }
+        }
     }
 
     /// [`WindingField::exceeds`] at up to 64 points that lie close together.
@@ -283,49 +351,66 @@ impl WindingField {
         results: &mut [bool],
         scratch: &mut Scratch,
     ) {
-        let mut values = [0.0; BLOCK];
-        self.at_block(points, &mut values[..points.len()], COARSE, scratch);
-        for ((q, w), result) in points.iter().zip(values).zip(results) {
-            *result = self.decide(*q, w, threshold, scratch);
+        match &self.engine {
+            Engine::Soup(soup) => soup.classify(points, threshold, results, scratch),
+            Engine::Cloud(tree) => {
+                let mut values = [0.0; BLOCK];
+                tree.at_block(points, &mut values[..points.len()], Order::Two, COARSE_BETA, scratch);
+                for ((q, w), result) in points.iter().zip(values).zip(results) {
+                    *result = decide(tree, *q, w, threshold, scratch);
+                }
+            }
         }
     }
 
-    /// Decides by the coarse value `w` at `q`, or by finer ones.
-    fn decide(&self, q: Vec3, w: f64, threshold: f64, scratch: &mut Scratch) -> bool {
-        let certain =
-            |w: f64, beta: f64| (w - threshold).abs() > self.error_model().error(beta) || w.is_nan();
-        if certain(w, COARSE_BETA) {
-            return w >= threshold;
-        }
-        let w = self.at_with(q, Accuracy::Explicit { order: Order::Two, beta: FINE_BETA }, scratch);
-        if certain(w, FINE_BETA) { w >= threshold } else { self.direct(q) >= threshold }
-    }
-
-    /// Whether w ≥ `level` at `q` by the paper's evaluator, for tracing level sets: the same answer each time, without
-    /// the direct sum that [`WindingField::exceeds`] falls back on next to the level set, where tracing spends its time.
+    /// Whether w ≥ `level` at `q`, for tracing level sets: the same answer each time, and for clouds without the direct sum
+    /// that [`WindingField::exceeds`] falls back on next to the level set, where tracing spends its time.
     pub fn is_above(&self, q: Vec3, level: f64, scratch: &mut Scratch) -> bool {
-        self.at_with(q, Accuracy::of_paper(&self.shape), scratch) >= level
+        match &self.engine {
+            Engine::Soup(_) => self.exceeds(q, level, scratch),
+            Engine::Cloud(_) => self.at_with(q, Accuracy::of_paper(&self.shape), scratch) >= level,
+        }
     }
 }
 
-/// Largest error of order 2 on a lattice over the bounds: `at_two` (β / 2)^−power. Measured with a margin of 1.5 to 2:
-/// on the Stanford bunny 3.8e-3, 6.3e-4, 1.4e-4, 2.4e-5 at β = 2, 3, 4, 6; on a cloud of 35k of its barycentres 1.8e-2
-/// (2.7e-2 with leaves of 4), 2.0e-3, 4.6e-4, 7.4e-5.
-#[derive(Clone, Copy)]
-struct ErrorModel {
-    at_two: f64,
-    power: f64,
+/// Decides by the coarse value `w` at `q`, or by finer ones while these are within their error of the threshold.
+fn decide(tree: &Tree<OrientedCloud>, q: Vec3, w: f64, threshold: f64, scratch: &mut Scratch) -> bool {
+    let certain = |w: f64, beta: f64| (w - threshold).abs() > CLOUD_ERROR.error(beta) || w.is_nan();
+    if certain(w, COARSE_BETA) {
+        return w >= threshold;
+    }
+    let w = tree.at(q, Order::Two, FINE_BETA, scratch);
+    if certain(w, FINE_BETA) { w >= threshold } else { tree.direct(q) >= threshold }
 }
 
-impl ErrorModel {
-    fn error(&self, beta: f64) -> f64 {
-        self.at_two * (beta / 2.0).powf(-self.power)
-    }
-
-    fn beta(&self, error: f64) -> f64 {
-        2.0 * (self.at_two / error).powf(1.0 / self.power).max(1.0)
+fn report(shape: &Shape, engine: &Engine) -> FieldReport {
+    match engine {
+        Engine::Cloud(tree) => FieldReport {
+            method: "fast winding number of points",
+            elements: shape.len(),
+            nodes: tree.nodes(),
+            bytes: tree.bytes(),
+            ..FieldReport::default()
+        },
+        Engine::Soup(soup) => {
+            let counts = soup.counts();
+            let method = match (soup.is_closed(), counts.loose_components > 0, counts.capped_components > 0) {
+                (true, ..) => "crossings: every component is closed",
+                (_, false, _) => "crossings, and the field of caps over the openings",
+                (_, true, false) => "solid angles: every open component has too many openings to be capped",
+                (_, true, true) => "crossings and caps, and solid angles of components with many openings",
+            };
+            FieldReport {
+                method,
+                elements: shape.len(),
+                boundary_edges: counts.boundary_edges,
+                caps: soup.closure.caps.len(),
+                capped_components: counts.capped_components,
+                loose_components: counts.loose_components,
+                is_certified: soup.is_certified(),
+                nodes: soup.nodes(),
+                bytes: soup.bytes(),
+            }
+        }
     }
 }
-
-const SOUP_ERROR: ErrorModel = ErrorModel { at_two: 8e-3, power: 4.2 };
-const CLOUD_ERROR: ErrorModel = ErrorModel { at_two: 3e-2, power: 4.3 };

@@ -3,14 +3,24 @@
 //! `exact` is the definition and the oracle; `field` builds a tree once and answers fast (Barill et al. 2018). `hierarchy`
 //! and `parity` are the methods that the paper compares itself with.
 mod buckets;
-#[allow(dead_code, reason = "cycles and components are for the closure")]
+mod certificate;
 mod chain;
+mod closure;
+mod curtain;
 mod dipoles;
+mod error_model;
 mod exact;
+mod facets;
 mod field;
 mod gradient;
 mod hierarchy;
+mod lattice;
+mod locate;
 mod parity;
+mod pieces;
+mod scan;
+mod soup_field;
+mod surface_rule;
 mod triangles;
 
 pub use crate::treecode::{Order, Scratch};

@@ -36,13 +36,8 @@ impl Kernel for TriangleSoup {
     }
 
     #[inline(always)]
-    fn add(sum: &mut AngleProduct, [a, b, c]: &[Lanes; 3], q: &Lanes) {
-        // The normal from edges, not from corners relative to the query: that stays accurate far away.
-        let normal = cross(&minus(b, a), &minus(c, a));
-        let (a, b, c) = (minus(a, q), minus(b, q), minus(c, q));
-        let numerator = dot(&a, &normal);
-        let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
-        let denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
+    fn add(sum: &mut AngleProduct, corners: &[Lanes; 3], q: &Lanes) {
+        let (denominator, numerator, _) = angle(corners, q);
         sum.multiply(denominator, numerator);
     }
 
@@ -52,12 +47,18 @@ impl Kernel for TriangleSoup {
 
     #[inline(always)]
     fn add_gradient(sum: &mut Lanes, corners: &[Lanes; 3], q: &Lanes) {
-        let relative = corners.each_ref().map(|c| minus(c, q));
-        let lengths = relative.each_ref().map(|r| dot(r, r).sqrt());
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            let along = minus(&corners[j], &corners[i]);
-            add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
-        }
+        add_edges(sum, corners, q);
+    }
+}
+
+/// Adds what the edges of four triangles add to the gradient, times 4π.
+#[inline(always)]
+pub(super) fn add_edges(sum: &mut Lanes, corners: &[Lanes; 3], q: &Lanes) {
+    let relative = corners.each_ref().map(|c| minus(c, q));
+    let lengths = relative.each_ref().map(|r| dot(r, r).sqrt());
+    for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+        let along = minus(&corners[j], &corners[i]);
+        add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
     }
 }
 
@@ -78,6 +79,20 @@ fn add_edge(sum: &mut Lanes, [a, b]: [&Lanes; 2], [la, lb]: [f64x4; 2], along: &
     for i in 0..3 {
         sum[i] += is_aside & (weight * sine[i]);
     }
+}
+
+/// Denominator and numerator of the tangent of half the solid angles of four triangles, and a size to which the rounding
+/// error of the numerator is relative.
+#[inline(always)]
+pub(super) fn angle([a, b, c]: &[Lanes; 3], q: &Lanes) -> (f64x4, f64x4, f64x4) {
+    // The normal from edges, not from corners relative to the query: that stays accurate far away.
+    let (u, v) = (minus(b, a), minus(c, a));
+    let normal = cross(&u, &v);
+    let (a, b, c) = (minus(a, q), minus(b, q), minus(c, q));
+    let numerator = dot(&a, &normal);
+    let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
+    let denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
+    (denominator, numerator, la * dot(&u, &u).sqrt() * dot(&v, &v).sqrt())
 }
 
 fn minus(a: &Lanes, b: &Lanes) -> Lanes {
@@ -101,12 +116,13 @@ pub struct AngleProduct {
 }
 
 impl AngleProduct {
-    const ONE: AngleProduct = AngleProduct { real: f64x4::ONE, imaginary: f64x4::ZERO, wraps: f64x4::ZERO };
+    pub(super) const ONE: AngleProduct =
+        AngleProduct { real: f64x4::ONE, imaginary: f64x4::ZERO, wraps: f64x4::ZERO };
 
     /// Multiplies by `real + i·imaginary`, four factors at once. A factor without an imaginary part counts as 1: its
     /// triangle holds the query in its plane.
     #[inline(always)]
-    fn multiply(&mut self, real: f64x4, imaginary: f64x4) {
+    pub(super) fn multiply(&mut self, real: f64x4, imaginary: f64x4) {
         let flat = imaginary.simd_eq(f64x4::ZERO);
         let real = flat.bitselect(f64x4::ONE, real);
         let new_real = self.real * real - self.imaginary * imaginary;
@@ -124,7 +140,7 @@ impl AngleProduct {
     }
 
     /// The winding number: the sum of half solid angles over 2π.
-    fn turns(self) -> f64 {
+    pub(super) fn turns(self) -> f64 {
         let [real, imaginary, wraps] = [self.real, self.imaginary, self.wraps].map(|v| v.to_array());
         let mut sum = AngleProduct1 { real: real[0], imaginary: imaginary[0], wraps: wraps[0] };
         for k in 1..WIDTH {

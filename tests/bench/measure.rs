@@ -1,55 +1,188 @@
-//! One measured job in a process of its own, for `tests/bench/peers/compare.py`.
+//! One measured job in a process of its own, for the benches beside other implementations and for wasm beside native.
 //!
-//! `measure MODEL RESOLUTION VALUES` reads a model (a `.f64` file is a cloud: raw little-endian point, normal and area of
-//! each point); builds the field and evaluates it with the paper's parameters on a lattice of RESOLUTION cells along the
-//! longest side, as a lattice and point by point; voxelizes; writes the lattice's values as raw f64, x fastest, and prints
-//! its times in seconds as JSON.
-use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent, TriangleSoup};
+//! ```text
+//! measure voxels   MODEL --counts N                            build and classify N³ samples of the bounds
+//! measure values   MODEL --counts N | --points FILE [--tolerance T | --paper]
+//! measure contains MODEL --points FILE                         classify scattered points
+//! measure build    MODEL                                       build only, with memory
+//! measure oracle   MODEL --points FILE                         the direct sum in f64, not timed
+//! ```
+//! `--output FILE` writes the answers of the last repeat: raw f64 for values, a byte of 0 or 1 for classifications, x
+//! fastest. `--repeats` (5) and `--limit` (3 seconds) bound how often a job is repeated after one unmeasured run.
+//! Points are raw little-endian f64; so is a model that ends in `.f64`, a cloud: point, normal and area of each point.
+//! Prints JSON: medians of the times in seconds, bytes of the field, growth of resident memory by the first build.
+use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent};
 use fast_winding::io::{self, Geometry};
 use fast_winding::math::Vec3;
 use fast_winding::solid::{VoxelConfig, voxelize};
-use fast_winding::winding::{Accuracy, FieldConfig, WindingField};
+use fast_winding::winding::{Accuracy, FieldConfig, WindingField, winding_of_cloud, winding_of_soup};
+use rayon::prelude::*;
+use std::collections::HashMap;
 use std::time::Instant;
 
-const BUILDS: usize = 5;
-
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [model, resolution, values] = &arguments[..] else {
-        panic!("usage: measure MODEL RESOLUTION VALUES")
+    let mut words = std::env::args().skip(1);
+    let (job, model) = (words.next().expect("a job"), words.next().expect("a model"));
+    let options = Options::parse(words);
+    let shape = read_shape(&model);
+    let answers = match job.as_str() {
+        "build" => measure(&options, &shape, |_| Vec::new()),
+        "voxels" => classify_lattice(&options, &shape),
+        "values" => evaluate(&options, &shape),
+        "contains" => classify_points(&options, &shape),
+        "oracle" => bytes_of(&sum_directly(&options.points(), &shape)),
+        _ => panic!("unknown job '{job}': voxels, values, contains, build and oracle are known"),
     };
-    let shape =
-        if model.ends_with(".f64") { Shape::from(read_cloud(model)) } else { Shape::from(read_soup(model)) };
-    let resolution: usize = resolution.parse().expect("the resolution is a number");
-
-    let mut builds = Vec::new();
-    let mut field = None;
-    for _ in 0..BUILDS {
-        let (time, built) = timed(|| WindingField::new(shape.clone(), FieldConfig::default()));
-        builds.push(time);
-        field = Some(built);
+    if let Some(path) = options.text("output") {
+        std::fs::write(path, answers).expect("the answers can be written");
     }
-    builds.sort_by(f64::total_cmp);
-    let field = field.expect("it was built");
+}
 
-    let lattice = Lattice::with_resolution(field.bounds(), resolution).expect("the model has a size");
-    let points: Vec<Vec3> = (0..lattice.len()).map(|i| lattice.point(lattice.sample(i))).collect();
-    let accuracy = Accuracy::of_paper(&shape);
-    let (evaluation, grid) =
-        timed(|| field.evaluate_lattice(&lattice, accuracy, &Silent).expect("nothing cancels"));
-    let (scattered, _) = timed(|| field.evaluate(&points, accuracy, &Silent).expect("nothing cancels"));
+fn classify_lattice(options: &Options, shape: &Shape) -> Vec<u8> {
+    let lattice = options.lattice(shape).expect("--counts is given");
     let config = VoxelConfig::default();
-    let (voxels, solid) = timed(|| voxelize(&field, &lattice, &config, &Silent).expect("nothing cancels"));
-    std::fs::write(values, grid.values.iter().flat_map(|w| w.to_le_bytes()).collect::<Vec<u8>>())
-        .expect("written");
+    let ask = |field: &WindingField| voxelize(field, &lattice, &config, &Silent).expect("nothing cancels");
+    measure(options, shape, ask).to_bytes().expect("the bytes fit")
+}
+
+fn evaluate(options: &Options, shape: &Shape) -> Vec<u8> {
+    let accuracy = options.accuracy(shape);
+    if let Some(lattice) = options.lattice(shape) {
+        let ask = |field: &WindingField| {
+            field.evaluate_lattice(&lattice, accuracy, &Silent).expect("nothing cancels")
+        };
+        return bytes_of(&measure(options, shape, ask).values);
+    }
+    let points = options.points();
+    let ask = |field: &WindingField| field.evaluate(&points, accuracy, &Silent).expect("nothing cancels");
+    bytes_of(&measure(options, shape, ask))
+}
+
+fn classify_points(options: &Options, shape: &Shape) -> Vec<u8> {
+    let points = options.points();
+    let ask = |field: &WindingField| field.contains(&points, &Silent).expect("nothing cancels");
+    measure(options, shape, ask).into_iter().map(u8::from).collect()
+}
+
+fn sum_directly(points: &[Vec3], shape: &Shape) -> Vec<f64> {
+    let at = |q: &Vec3| match shape {
+        Shape::Soup(soup) => winding_of_soup(soup, *q),
+        Shape::Cloud(cloud) => winding_of_cloud(cloud, *q),
+    };
+    points.par_iter().map(at).collect()
+}
+
+/// Builds the field and asks it, again and again; prints the medians. Returns the last answers.
+fn measure<T>(options: &Options, shape: &Shape, ask: impl Fn(&WindingField) -> T) -> T {
+    let before = Memory::reset();
+    let mut field = WindingField::new(shape.clone(), FieldConfig::default());
+    let after = Memory::now();
+    // Once unmeasured, unless that alone is as long as is allowed: then the first run counts.
+    let (first, mut answers) = timed(|| ask(&field));
+    let (mut builds, mut evaluations, mut totals) = (Vec::new(), Vec::new(), Vec::new());
+    let start = Instant::now();
+    while builds.is_empty()
+        || (builds.len() < options.repeats && start.elapsed().as_secs_f64() < options.limit)
+    {
+        // The former field goes before the clock starts: nobody else pays for it either.
+        drop(field);
+        let (build, built) = timed(|| WindingField::new(shape.clone(), FieldConfig::default()));
+        field = built;
+        let evaluation = if first > options.limit {
+            first
+        } else {
+            drop(answers);
+            let (evaluation, asked) = timed(|| ask(&field));
+            answers = asked;
+            evaluation
+        };
+        builds.push(build);
+        evaluations.push(evaluation);
+        totals.push(build + evaluation);
+    }
     println!(
-        "{{\"elements\": {}, \"build\": {}, \"evaluation\": {evaluation}, \"scattered\": {scattered}, \
-         \"voxels\": {voxels}, \"inside\": {}, \"bytes\": {}}}",
+        "{{\"elements\": {}, \"build\": {:e}, \"evaluation\": {:e}, \"total\": {:e}, \"repeats\": {}, \"bytes\": {}, \
+         \"resident\": {}, \"peak\": {}, \"process\": {}, \"method\": {:?}}}",
         shape.len(),
-        builds[BUILDS / 2],
-        solid.count(),
+        median(&mut builds),
+        median(&mut evaluations),
+        median(&mut totals),
+        totals.len(),
         field.report().bytes,
+        after.resident.saturating_sub(before.resident),
+        after.peak.saturating_sub(before.resident),
+        after.peak,
+        field.report().method,
     );
+    answers
+}
+
+/// Words of the command line: `--name value`, or `--name` alone.
+struct Options {
+    words: HashMap<String, String>,
+    repeats: usize,
+    limit: f64,
+}
+
+impl Options {
+    fn parse(words: impl Iterator<Item = String>) -> Options {
+        let mut named = HashMap::new();
+        let mut words = words.peekable();
+        while let Some(word) = words.next() {
+            let name = word.strip_prefix("--").unwrap_or_else(|| panic!("'{word}' is no option")).to_string();
+            let value = words.next_if(|next| !next.starts_with("--")).unwrap_or_default();
+            named.insert(name, value);
+        }
+        let number = |name: &str, default: f64| {
+            named.get(name).map_or(default, |text| text.parse().expect("a number"))
+        };
+        Options { repeats: number("repeats", 5.0) as usize, limit: number("limit", 3.0), words: named }
+    }
+
+    fn text(&self, name: &str) -> Option<&str> {
+        self.words.get(name).map(String::as_str)
+    }
+
+    fn lattice(&self, shape: &Shape) -> Option<Lattice> {
+        let count = self.text("counts")?.parse().expect("--counts is a number");
+        Some(Lattice::with_counts(shape.bounds(), [count; 3]).expect("the model has a size"))
+    }
+
+    fn points(&self) -> Vec<Vec3> {
+        let path = self.text("points").expect("--points is given");
+        read_numbers::<3>(path).into_iter().map(Vec3::from_array).collect()
+    }
+
+    fn accuracy(&self, shape: &Shape) -> Accuracy {
+        match self.text("tolerance") {
+            Some(tolerance) => Accuracy::Tolerance(tolerance.parse().expect("--tolerance is a number")),
+            None if self.text("paper").is_some() => Accuracy::of_paper(shape),
+            None => Accuracy::default(),
+        }
+    }
+}
+
+/// Resident memory of this process in bytes: now, and at its highest since the reset. Zero where Linux's /proc is missing.
+struct Memory {
+    resident: usize,
+    peak: usize,
+}
+
+impl Memory {
+    fn reset() -> Memory {
+        // Not everywhere allowed: then the peak is that since the start.
+        let _ = std::fs::write("/proc/self/clear_refs", "5");
+        Memory::now()
+    }
+
+    fn now() -> Memory {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let kilobytes = |name: &str| {
+            let line = status.lines().find(|line| line.starts_with(name));
+            line.and_then(|line| line.split_whitespace().nth(1)).map_or(0, |word| word.parse().unwrap_or(0))
+        };
+        Memory { resident: 1024 * kilobytes("VmRSS"), peak: 1024 * kilobytes("VmHWM") }
+    }
 }
 
 fn timed<T>(job: impl FnOnce() -> T) -> (f64, T) {
@@ -58,10 +191,18 @@ fn timed<T>(job: impl FnOnce() -> T) -> (f64, T) {
     (start.elapsed().as_secs_f64(), result)
 }
 
-fn read_soup(path: &str) -> TriangleSoup {
+fn median(times: &mut [f64]) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+fn read_shape(path: &str) -> Shape {
+    if path.ends_with(".f64") {
+        return Shape::from(read_cloud(path));
+    }
     let bytes = std::fs::read(path).expect("the model can be read");
     match io::read(&bytes).expect("the model is understood").geometry {
-        Geometry::Soup(soup) => soup,
+        Geometry::Soup(soup) => Shape::from(soup),
         Geometry::Cloud(_) => panic!("{path} has no triangles"),
     }
 }
@@ -78,4 +219,8 @@ fn read_numbers<const N: usize>(path: &str) -> Vec<[f64; N]> {
     let number = |chunk: &[u8]| f64::from_le_bytes(chunk.try_into().expect("eight bytes"));
     let record = |chunk: &[u8]| std::array::from_fn(|k| number(&chunk[8 * k..8 * k + 8]));
     bytes.chunks_exact(8 * N).map(record).collect()
+}
+
+fn bytes_of(values: &[f64]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }

@@ -1,96 +1,135 @@
-// Measures the package in Node on the Stanford bunny: one and two threads, beside the native build on as many.
-// Run by `npm --prefix www run bench`; prints medians in milliseconds, and ratios.
+// Measures the package in Node beside the native build: the single-threaded build against native on one thread, and the
+// threads build on one and two threads. Run by `npm --prefix www run bench wasm [-- --quick]`; prints medians and ratios.
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { init } from '../../pkg/dist/node/index.js';
+import { init as initSync } from '../../pkg/dist/node/sync.js';
+import { model, randomOf } from './models.mjs';
+import { markdown, measuringProgram, milliseconds, modelsFolder, repeat } from './measuring.mjs';
 
-const root = new URL('../../', import.meta.url).pathname;
-const model = join(root, 'www/node_modules/stl-models/objects/bunny.bin.stl');
-const REPEATS = 7;
+const root = fileURLToPath(new URL('../../', import.meta.url));
+const isQuick = process.argv.includes('--quick');
+/** What is to be reached: wasm / native for crossings and trees, and for the dual tree; gain of the second thread. */
+const [MOST_SLOWER, MOST_SLOWER_DUAL, LEAST_GAIN] = [2.5, 3.5, 1.7];
+/** Shorter jobs need not gain from a second thread. */
+const LONG = 300;
 
-const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
+const counts = (count) => (isQuick ? Math.min(count, count > 100 ? 32 : 24) : count);
+const JOBS = [
+  { name: 'build, 71k triangles', model: 'bumpy70k', job: 'build', goal: MOST_SLOWER },
+  { name: 'build, 1.07M triangles', model: 'bumpy1m', job: 'build', goal: MOST_SLOWER },
+  { name: 'voxels, closed', model: 'bumpy70k', job: 'voxels', counts: counts(100), goal: MOST_SLOWER },
+  { name: 'voxels, open', model: 'bunny', job: 'voxels', counts: counts(100), goal: MOST_SLOWER },
+  { name: 'voxels, closed', model: 'bumpy70k', job: 'voxels', counts: counts(256), goal: MOST_SLOWER },
+  { name: 'voxels, open', model: 'bunny', job: 'voxels', counts: counts(256), goal: MOST_SLOWER },
+  { name: 'values ≤ 1e-3, loose soup', model: 'loose-bunny', job: 'values', tolerance: 1e-3, counts: counts(100), goal: MOST_SLOWER_DUAL },
+  { name: 'values ≤ 1e-3, cloud', model: 'cloud-bunny35k', job: 'values', tolerance: 1e-3, counts: counts(100), goal: MOST_SLOWER_DUAL },
+  { name: 'contains, closed', model: 'bumpy70k', job: 'contains', scattered: isQuick ? 20_000 : 1_000_000, goal: MOST_SLOWER },
+  { name: 'contains, open', model: 'bunny', job: 'contains', scattered: isQuick ? 20_000 : 1_000_000, goal: MOST_SLOWER },
+];
 
-async function timed(action) {
-  await action(); // once unmeasured: the engine's code is compiled as it runs
-  const times = [];
-  for (let i = 0; i < REPEATS; i++) {
-    const start = performance.now();
-    await action();
-    times.push(performance.now() - start);
-  }
-  return median(times);
+/** A shape of a model file; promised or at once, as the engine `fw` answers. */
+function open(fw, path) {
+  const bytes = readFileSync(path);
+  if (!path.endsWith('.f64')) return fw.Soup.parse(bytes);
+  const records = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length / 8);
+  const count = records.length / 7;
+  const column = (from, width) =>
+    Float64Array.from({ length: count * width }, (_, i) => records[7 * Math.floor(i / width) + from + (i % width)]);
+  return fw.Cloud.from({ points: column(0, 3), normals: column(3, 3), areas: column(6, 1) });
 }
 
-/** The cell centres of a lattice, as points. */
-function centres({ counts: [nx, ny, nz], origin, spacing }) {
-  const points = new Float64Array(3 * nx * ny * nz);
-  for (let i = 0; i < nx * ny * nz; i++) {
-    const cell = [i % nx, Math.floor(i / nx) % ny, Math.floor(i / (nx * ny))];
-    points.set(cell.map((c, axis) => origin[axis] + spacing[axis] * c), 3 * i);
+/** The points that a job asks: cell centres over the bounds, x fastest, or scattered in them from a seed. */
+function pointsOf({ counts: count, scattered }, { min, max }) {
+  const size = max.map((high, axis) => high - min[axis]);
+  if (scattered) {
+    const random = randomOf(7);
+    return Float64Array.from({ length: 3 * scattered }, (_, i) => min[i % 3] + size[i % 3] * random());
+  }
+  const points = new Float64Array(3 * count ** 3);
+  for (let i = 0; i < count ** 3; i++) {
+    const cell = [i % count, Math.floor(i / count) % count, Math.floor(i / count ** 2)];
+    for (let axis = 0; axis < 3; axis++) points[3 * i + axis] = min[axis] + (0.5 * size[axis]) / count + (size[axis] / count) * cell[axis];
   }
   return points;
 }
 
-async function measureWasm(threads, bytes) {
-  const fw = await init({ threads });
-  const shape = await fw.open(bytes);
-  const points = centres(await shape.voxelize({ resolution: 50 }));
-  const build = async () => {
-    const fresh = await fw.open(bytes);
-    const { milliseconds } = await fresh.prepare();
-    fresh.free();
-    return milliseconds;
-  };
-  await build();
-  const builds = [];
-  for (let i = 0; i < REPEATS; i++) builds.push(await build());
-  const result = {
-    'build the tree': median(builds),
-    '50³ points, order 2, β 2': await timed(() => shape.windingNumbers(points, { order: 2, beta: 2 })),
-    '50³ voxels': await timed(() => shape.voxelize({ resolution: 50 })),
-    '100³ voxels': await timed(() => shape.voxelize({ resolution: 100 })),
-    '60 layers': await timed(() => shape.slice({ layerHeight: (shape.bounds.max[2] - shape.bounds.min[2]) / 60 })),
-    'surface, resolution 64': await timed(() => shape.surface({ resolution: 64 })),
-  };
-  fw.dispose();
-  return result;
+/** Milliseconds of one job on an engine; the field is built before, unless the job is to build. */
+async function measureWasm(fw, job, path, points) {
+  if (job.job === 'build') {
+    return repeat(async () => {
+      const fresh = await open(fw, path);
+      const prepared = await fresh.prepare();
+      fresh.free();
+      return prepared.milliseconds;
+    });
+  }
+  const shape = await open(fw, path);
+  await shape.prepare();
+  const ask = {
+    voxels: () => shape.voxelize({ counts: [job.counts, job.counts, job.counts] }),
+    values: () => shape.windingNumbers(points, { tolerance: job.tolerance }),
+    contains: () => shape.contains(points),
+  }[job.job];
+  const time = await repeat(async () => {
+    const start = performance.now();
+    await ask();
+    return performance.now() - start;
+  });
+  shape.free();
+  return time;
 }
 
-/** The native build through tests/bench/measure.rs: the rows that it has too. */
-function measureNative(threads) {
-  const folder = mkdtempSync(join(tmpdir(), 'fast-winding-bench-'));
-  const env = { ...process.env, RAYON_NUM_THREADS: String(threads) };
-  const measure = (resolution) => {
-    const args = ['run', '--release', '--quiet', '--example', 'measure', '--', model, String(resolution), join(folder, 'values')];
-    return JSON.parse(execFileSync('cargo', args, { cwd: root, env, encoding: 'utf8' }));
-  };
-  const runs = Array.from({ length: REPEATS }, () => [measure(50), measure(100)]);
-  rmSync(folder, { recursive: true });
-  const of = (key, which) => 1000 * median(runs.map((run) => run[which][key]));
+/** The same by tests/bench/measure.rs, on one thread. */
+function measureNative(program, job, path, pointsFile) {
+  const args = [job.job, path];
+  if (job.job === 'voxels') args.push('--counts', job.counts);
+  else if (job.job !== 'build') args.push('--points', pointsFile);
+  if (job.tolerance) args.push('--tolerance', job.tolerance);
+  const env = { ...process.env, RAYON_NUM_THREADS: '1' };
+  const times = JSON.parse(execFileSync(program, args.map(String), { cwd: root, env, encoding: 'utf8' }));
+  return 1000 * (job.job === 'build' ? times.build : times.evaluation);
+}
+
+function row(job, { single, one, two, native }) {
+  const [slower, gain] = [single / native, one / two];
+  const asked = job.counts ? `${job.counts}³` : job.scattered ? `${job.scattered.toLocaleString('en')} scattered` : '';
+  const missed = [slower > job.goal && 'ratio', one >= LONG && gain < LEAST_GAIN && 'gain'].filter(Boolean);
   return {
-    'build the tree': of('build', 0),
-    '50³ points, order 2, β 2': of('scattered', 0),
-    '50³ voxels': of('voxels', 0),
-    '100³ voxels': of('voxels', 1),
+    job: job.name,
+    asked,
+    'native, 1 thread': milliseconds(native),
+    'single build': milliseconds(single),
+    'single / native': `${slower.toFixed(2)} ×`,
+    goal: `≤ ${job.goal} ×`,
+    'threads build, 1': milliseconds(one),
+    'threads build, 2': milliseconds(two),
+    'gain of the second': `${gain.toFixed(2)} ×${one < LONG ? ' (short)' : ''}`,
+    met: missed.length ? `**no**: ${missed.join(', ')}` : 'yes',
   };
 }
 
-const bytes = readFileSync(model);
-const [one, two] = [await measureWasm(1, bytes), await measureWasm(2, bytes)];
-const [native, nativeTwo] = [measureNative(1), measureNative(2)];
-
-const number = (value, digits, unit) => (value === undefined ? '–' : value.toFixed(digits) + unit);
-const rows = Object.keys(one).map((name) => ({
-  bunny: name,
-  'wasm, 1 thread': number(one[name], 0, ' ms'),
-  'wasm, 2 threads': number(two[name], 0, ' ms'),
-  '2 threads gain': number(one[name] / two[name], 2, ' ×'),
-  'native, 1 thread': number(native[name], 0, ' ms'),
-  'wasm / native, 1 thread': number(native[name] && one[name] / native[name], 2, ' ×'),
-  'wasm / native, 2 threads': number(native[name] && two[name] / nativeTwo[name], 2, ' ×'),
-}));
-const heads = Object.keys(rows[0]);
-const line = (cells) => `| ${cells.join(' | ')} |`;
-console.log([line(heads), line(heads.map((_, i) => (i ? '---:' : '---'))), ...rows.map((row) => line(Object.values(row)))].join('\n'));
+const engines = { single: await initSync(), one: await init({ threads: 1 }), two: await init({ threads: 2 }) };
+const folder = mkdtempSync(join(tmpdir(), 'fast-winding-bench-'));
+const program = measuringProgram();
+const rows = [];
+for (const job of JOBS) {
+  const path = model(modelsFolder, job.model);
+  const shape = open(engines.single, path);
+  const points = job.job === 'values' || job.job === 'contains' ? pointsOf(job, shape.bounds) : undefined;
+  shape.free();
+  const pointsFile = join(folder, 'points.f64');
+  if (points) writeFileSync(pointsFile, points);
+  const times = { native: measureNative(program, job, path, pointsFile) };
+  for (const [name, fw] of Object.entries(engines)) times[name] = await measureWasm(fw, job, path, points);
+  rows.push(row(job, times));
+  console.error(`${job.name}: done`);
+}
+rmSync(folder, { recursive: true });
+engines.one.dispose();
+engines.two.dispose();
+console.log(`\nNode ${process.version}; the threads build runs in a worker: points and answers are copied between threads, which counts.\n`);
+console.log(markdown(rows));

