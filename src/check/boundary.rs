@@ -1,47 +1,15 @@
 use crate::data::TriangleSoup;
 use crate::math::Vec3;
-use rayon::prelude::*;
+use crate::winding::{net_edges, weld};
 
 /// The edges along which a soup is open, as pairs of end points: those that its triangles run through more often in one
 /// direction than in the other, vertices welded by exact position (the net boundary chain ∂M).
 ///
-/// A closed, consistently oriented soup has none. An edge appears once, in the prevailing direction.
+/// A closed, consistently oriented soup has none. An edge appears in the prevailing direction,
+/// as often as it is run through more in that than in the other.
 pub fn boundary_edges(soup: &TriangleSoup) -> Vec<[Vec3; 2]> {
-    let welded = weld(soup.positions());
-    // An undirected edge as (lower, upper), and whether it is run through upward.
-    let mut edges: Vec<(u32, u32, bool)> = (soup.triangles().par_iter())
-        .flat_map_iter(|corners| {
-            let [a, b, c] = corners.map(|i| welded[i as usize]);
-            [(a, b), (b, c), (c, a)].map(|(a, b)| (a.min(b), a.max(b), a < b))
-        })
-        .filter(|(a, b, _)| a != b)
-        .collect();
-    edges.par_sort_unstable();
-    let position = |i: u32| soup.positions()[i as usize];
-    (edges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)))
-        .filter_map(|same| {
-            let upward = same.iter().filter(|e| e.2).count();
-            let (lower, upper, _) = same[0];
-            match (2 * upward).cmp(&same.len()) {
-                std::cmp::Ordering::Equal => None,
-                std::cmp::Ordering::Greater => Some([position(lower), position(upper)]),
-                std::cmp::Ordering::Less => Some([position(upper), position(lower)]),
-            }
-        })
-        .collect()
-}
-
-/// For each vertex, the lowest index of those in exactly the same place; −0 is 0.
-pub(super) fn weld(positions: &[Vec3]) -> Vec<u32> {
-    let bits = |p: Vec3| (p + 0.0).to_array().map(f64::to_bits);
-    let mut sorted: Vec<([u64; 3], u32)> =
-        positions.par_iter().enumerate().map(|(i, p)| (bits(*p), i as u32)).collect();
-    sorted.par_sort_unstable();
-    let mut first = vec![0; positions.len()];
-    for same in sorted.chunk_by(|a, b| a.0 == b.0) {
-        same.iter().for_each(|(_, i)| first[*i as usize] = same[0].1);
-    }
-    first
+    let edges = net_edges(soup, &weld(soup.positions()));
+    edges.into_iter().map(|ends| ends.map(|v| soup.positions()[v as usize])).collect()
 }
 
 #[cfg(test)]

@@ -1,29 +1,14 @@
-use super::boundary::weld;
 use crate::data::TriangleSoup;
+use crate::winding::{self, weld};
 
 /// Number of pieces of a soup: two triangles belong to one piece if a chain of triangles that share vertices, welded
 /// by exact position, leads from one to the other.
 pub fn components(soup: &TriangleSoup) -> usize {
-    let mut parents = weld(soup.positions());
-    for corners in soup.triangles() {
-        let [a, b, c] = corners.map(|i| root(&mut parents, i));
-        let lowest = a.min(b).min(c);
-        [a, b, c].into_iter().for_each(|i| parents[i as usize] = lowest);
-    }
-    let mut roots: Vec<u32> = soup.triangles().iter().map(|t| root(&mut parents, t[0])).collect();
-    roots.sort_unstable();
-    roots.dedup();
-    roots.len()
-}
-
-/// The vertex that stands for the piece of vertex `i`; shortens the way there.
-fn root(parents: &mut [u32], mut i: u32) -> u32 {
-    while parents[i as usize] != i {
-        let above = parents[parents[i as usize] as usize];
-        parents[i as usize] = above;
-        i = above;
-    }
-    i
+    let roots = winding::components(soup, &weld(soup.positions()));
+    let mut of_triangles: Vec<u32> = soup.triangles().iter().map(|t| roots[t[0] as usize]).collect();
+    of_triangles.sort_unstable();
+    of_triangles.dedup();
+    of_triangles.len()
 }
 
 #[cfg(test)]

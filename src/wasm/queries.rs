@@ -22,20 +22,17 @@ impl Handle {
         let config = options.field_config()?;
         let field = self.field(config, job)?;
         options.accuracy(Accuracy::of_paper(field.shape()))?;
-        let (bytes, method) = (field.report().bytes, field.report().method);
+        field.prepare_points();
+        let report = field.report().clone();
         let milliseconds = Date::now() - start;
-        let (components, edges) = match self.soup() {
-            Some(soup) => (check::components(soup), check::boundary_edges(soup).len()),
-            None => (0, 0),
-        };
+        let components = self.soup().map_or(0, check::components);
         Ok(object([
             ("milliseconds", milliseconds.into()),
-            ("bytes", bytes.into()),
-            ("method", method.into()),
+            ("bytes", report.bytes.into()),
+            ("method", report.method.into()),
             ("components", components.into()),
-            ("boundaryEdges", edges.into()),
-            // This method closes no openings.
-            ("caps", 0.into()),
+            ("boundaryEdges", report.boundary_edges.into()),
+            ("caps", report.caps.into()),
         ]))
     }
 

@@ -46,8 +46,8 @@ impl Curtain {
         self.edges
     }
 
-    /// The boundary edges, in the direction in which the soup's triangles run through them.
-    pub fn each_edge(&self) -> impl Iterator<Item = [Vec3; 2]> {
+    /// Directed boundary edges.
+    pub fn each_edge(&self) -> impl Iterator<Item = [Vec3; 2]> + '_ {
         self.cycles.iter().flat_map(|c| (0..c.len()).map(move |k| [c[k], c[(k + 1) % c.len()]]))
     }
 

@@ -1,10 +1,8 @@
-mod gradient;
-
 use super::error_model::{CLOUD_ERROR, COARSE_BETA, ErrorModel, FINE_BETA, SOUP_ERROR};
 use super::soup_field::{HALF, SoupField};
 use crate::data::{
     BLOCK, Cancelled, Grid, Lattice, LatticeError, Monitor, OrientedCloud, OutOfMemory, Shape, TriangleSoup,
-    fill_blocks, for_each_lattice_block, zeroed,
+    fill_blocks, fill_in_blocks, for_each_lattice_block, zeroed,
 };
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{Order, Scratch, Tree, TreeConfig};
@@ -271,6 +269,44 @@ impl WindingField {
         let store = |index: usize, value: f64| values[index] = value;
         for_each_lattice_block(lattice, block, store, "winding numbers", monitor)?;
         Ok(Grid { lattice: *lattice, values })
+    }
+
+    /// The gradient of the winding number at `q`, per millimetre: it points inward. NaN where `q` is not finite.
+    ///
+    /// `accuracy` chooses the clusters as it does for w; where only the direct sum reaches it, so does the gradient's
+    /// (see [`super::winding_gradient`] for what it is on the surface).
+    pub fn gradient(&self, q: Vec3, accuracy: Accuracy) -> Vec3 {
+        self.gradient_with(q, accuracy, &mut Scratch::default())
+    }
+
+    fn gradient_with(&self, q: Vec3, accuracy: Accuracy, scratch: &mut Scratch) -> Vec3 {
+        match (&self.engine, self.expansion_for(accuracy), accuracy) {
+            (Engine::Soup(_), Some((order, beta)), Accuracy::Explicit { .. }) => {
+                self.of_paper().gradient(q, order, beta, scratch)
+            }
+            (Engine::Soup(soup), expansion, _) => soup.gradient(q, soup.fraction_by(expansion), scratch),
+            (Engine::Cloud(tree), Some((order, beta)), _) => tree.gradient(q, order, beta, scratch),
+            (Engine::Cloud(tree), None, _) => tree.direct_gradient(q),
+        }
+    }
+
+    /// Gradients of the winding number at `points`, in their order.
+    ///
+    /// # Errors
+    /// If and only if `monitor` cancels or the gradients do not fit in memory.
+    pub fn gradients(
+        &self,
+        points: &[Vec3],
+        accuracy: Accuracy,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<Vec3>, FieldError> {
+        if let (Accuracy::Explicit { .. }, Engine::Soup(_)) = (accuracy, &self.engine) {
+            self.of_paper(); // once, not by every thread
+        }
+        let value = |i: usize, scratch: &mut Scratch| self.gradient_with(points[i], accuracy, scratch);
+        let mut gradients = zeroed(points.len())?;
+        fill_in_blocks(&mut gradients, value, "gradients", monitor)?;
+        Ok(gradients)
     }
 
     /// Whether each of `points` is inside, w ≥ 1/2; for soups the solid counts as closed: a point on the surface is inside

@@ -1,7 +1,8 @@
 //! The winding field of a soup or a cloud: one question, *how many times is this point inside?*
 //!
-//! `exact` is the definition and the oracle; `field` builds a tree once and answers fast (Barill et al. 2018). `hierarchy`
-//! and `parity` are the methods that the paper compares itself with.
+//! `exact` is the definition and the oracle. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
+//! (`scan` on lattices, `locate` at scattered points) and a fraction of what closes it (`chain`, `closure`, `curtain`); a
+//! cloud's is the tree of Barill et al. 2018. `hierarchy` and `parity` are the methods that the paper compares itself with.
 mod buckets;
 mod certificate;
 mod chain;
@@ -24,6 +25,7 @@ mod surface_rule;
 mod triangles;
 
 pub use crate::treecode::{Order, Scratch};
+pub(crate) use chain::{components, net_edges, weld};
 pub use exact::{winding, winding_of_cloud, winding_of_soup};
 pub use field::{Accuracy, FieldConfig, FieldError, FieldReport, WindingField};
 pub use gradient::{edge_gradient, winding_gradient, winding_gradient_of_cloud, winding_gradient_of_soup};

@@ -1,5 +1,6 @@
 use super::triangles::AngleProduct;
 use crate::bvh::WIDTH;
+use crate::data::TriangleSoup;
 use crate::math::{Vec3, area_vector, perturbed_side_of_plane};
 use crate::treecode::{Kernel, Lanes, Quadrature};
 use wide::f64x4;
@@ -72,13 +73,13 @@ impl Kernel for Pieces {
         sum.multiply(denominator, numerator);
     }
 
-    fn total(sum: AngleProduct) -> f64 {
-        sum.turns()
-    }
-
     #[inline(always)]
     fn add_gradient(sum: &mut Lanes, block: &PieceBlock, q: &Lanes) {
-        super::triangles::add_edges(sum, &block.corners, q);
+        TriangleSoup::add_gradient(sum, &block.corners, q);
+    }
+
+    fn total(sum: AngleProduct) -> f64 {
+        sum.turns()
     }
 }
 

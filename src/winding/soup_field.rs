@@ -5,7 +5,7 @@ use super::curtain::{Curtain, LANES};
 use super::error_model::{COARSE_BETA, FINE_BETA, SOUP_ERROR};
 use super::exact::winding_of_soup;
 use super::facets::Facets;
-use super::gradient::{edge_gradient, triangle_gradient};
+use super::gradient::edge_gradient;
 use super::locate::Locator;
 use super::pieces::Pieces;
 use super::surface_rule::{share_of_touching, touches_inside};
@@ -148,19 +148,6 @@ impl SoupField {
         TriangleSoup::total(sum)
     }
 
-    /// The gradient of the winding number at `q`: crossings have none, so it is that of the fraction.
-    pub fn gradient(&self, q: Vec3, by: FractionBy, scratch: &mut Scratch) -> Vec3 {
-        match (by, &self.pieces) {
-            _ if !q.is_finite() => Vec3::NAN,
-            (FractionBy::Tree { order, beta }, Some(pieces)) => pieces.gradient(q, order, beta, scratch),
-            _ => {
-                let of_edges: Vec3 = self.curtain.each_edge().map(|[a, b]| edge_gradient(q, a, b)).sum();
-                let corners = self.closure.loose.iter().map(|t| self.soup.corners(*t as usize));
-                of_edges + corners.map(|t| triangle_gradient(q, t)).sum::<Vec3>()
-            }
-        }
-    }
-
     /// Makes ready what scattered points need. Built outside of the cell that holds it: a thread that waited for another
     /// to build could be the one whose help that other waits for.
     fn index(&self) -> &Index {
@@ -186,6 +173,22 @@ impl SoupField {
         let fraction = self.curtain.fraction(center) - f64::from(self.cap_crossings(center));
         let least = self.balls.least_crossings(center, radius, fraction, HALF)?;
         i8::try_from(least).ok().filter(|l| *l != UNKNOWN)
+    }
+
+    /// The gradient of w, which is that of the boundary chain: closed components have none.
+    pub fn gradient(&self, q: Vec3, by: FractionBy, scratch: &mut Scratch) -> Vec3 {
+        if !q.is_finite() {
+            return Vec3::NAN;
+        }
+        if let (FractionBy::Tree { order, beta }, Some(pieces)) = (by, &self.pieces) {
+            return pieces.gradient(q, order, beta, scratch);
+        }
+        let sides = |t: &u32| {
+            let [a, b, c] = self.soup.corners(*t as usize);
+            edge_gradient(q, a, b) + edge_gradient(q, b, c) + edge_gradient(q, c, a)
+        };
+        let capped: Vec3 = self.curtain.each_edge().map(|[a, b]| edge_gradient(q, a, b)).sum();
+        capped + self.closure.loose.iter().map(sides).sum::<Vec3>()
     }
 
     /// Builds what scattered points need, if it is not there.

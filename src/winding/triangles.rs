@@ -47,18 +47,12 @@ impl Kernel for TriangleSoup {
 
     #[inline(always)]
     fn add_gradient(sum: &mut Lanes, corners: &[Lanes; 3], q: &Lanes) {
-        add_edges(sum, corners, q);
-    }
-}
-
-/// Adds what the edges of four triangles add to the gradient, times 4π.
-#[inline(always)]
-pub(super) fn add_edges(sum: &mut Lanes, corners: &[Lanes; 3], q: &Lanes) {
-    let relative = corners.each_ref().map(|c| minus(c, q));
-    let lengths = relative.each_ref().map(|r| dot(r, r).sqrt());
-    for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-        let along = minus(&corners[j], &corners[i]);
-        add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
+        let relative = corners.each_ref().map(|c| minus(c, q));
+        let lengths = relative.each_ref().map(|r| dot(r, r).sqrt());
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let along = minus(&corners[j], &corners[i]);
+            add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
+        }
     }
 }
 
