@@ -2,11 +2,12 @@
 // `peers` (beside other implementations) and `figures` (those of the paper, as tables and as plots in docs/figures), or
 // those named. What begins with -- and all after it goes to each of them; for the figures it is `--models` and files:
 //     npm --prefix www run bench peers -- --rounds 5
+//     npm --prefix www run bench figures -- --models part.stl scan.ply
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
+import { model } from '../tests/bench/models.mjs';
 import { assemble } from './tools/assemble.mjs';
-import { writeModels } from './tools/bench-models.mjs';
 import { browser } from './tools/browser.mjs';
 import { npmInstall } from './tools/npm.mjs';
 import { root } from './tools/paths.mjs';
@@ -14,6 +15,8 @@ import { program, run, say, which, StepFailed } from './tools/run.mjs';
 import { requireCargo } from './tools/rust.mjs';
 
 const script = (name) => join(root, 'tests/bench', name);
+
+const FIGURE_MODELS = ['bunny', 'teapot', 'gear', 'snowden', 'loose-bunny', 'dragon11k', 'dragon47k', 'dragon202k', 'dragon871k'];
 
 const BENCHES = {
   native: (options) => run('cargo', ['bench', ...(options.length ? ['--', ...options] : [])], { cwd: root }),
@@ -33,10 +36,10 @@ const BENCHES = {
   },
   async figures(options) {
     await npmInstall();
-    const furtherModels = options.filter((word) => word !== '--models').map((path) => resolve(path));
+    const further = options.includes('--models') ? options.slice(options.indexOf('--models') + 1) : [];
     const folder = mkdtempSync(join(tmpdir(), 'fast-winding-'));
     try {
-      const models = [...writeModels(folder), ...furtherModels];
+      const models = [...FIGURE_MODELS.map((name) => model(folder, name)), ...further.map((path) => resolve(path))];
       const cargo = ['run', '--release', '--example', 'figures', '--', join(root, 'docs/figures'), ...models];
       await run('cargo', cargo, { cwd: root });
     } finally {

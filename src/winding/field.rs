@@ -300,6 +300,9 @@ impl WindingField {
         accuracy: Accuracy,
         monitor: &dyn Monitor,
     ) -> Result<Vec<Vec3>, FieldError> {
+        if let (Accuracy::Explicit { .. }, Engine::Soup(_)) = (accuracy, &self.engine) {
+            self.of_paper(); // once, not by every thread
+        }
         let value = |i: usize, scratch: &mut Scratch| self.gradient_with(points[i], accuracy, scratch);
         let mut gradients = zeroed(points.len())?;
         fill_in_blocks(&mut gradients, value, "gradients", monitor)?;

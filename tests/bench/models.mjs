@@ -16,10 +16,13 @@ const MAKERS = {
   // Closed.
   bumpy70k: () => bumpySphere(94),
   knot124k: () => knot(620, 100),
+  gear: () => readStl(join(packages, 'stl-models/objects/gearwheel.bin.stl')),
   bumpy1m: () => bumpySphere(366),
   // As scanned, with holes.
   bunny: () => readStl(join(packages, 'stl-models/objects/bunny.bin.stl')),
   snowden: () => snowden(),
+  dragon11k: () => readDragon('_res4'),
+  dragon47k: () => readDragon('_res3'),
   dragon202k: () => readDragon('_res2'),
   dragon871k: () => readDragon(''),
   // Soups.
