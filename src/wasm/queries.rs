@@ -23,12 +23,12 @@ impl Handle {
         let field = self.field(config, job)?;
         options.accuracy(Accuracy::of_paper(field.shape()))?;
         field.prepare_points();
-        let report = field.report().clone();
+        let (report, bytes) = (field.report().clone(), field.bytes());
         let milliseconds = Date::now() - start;
         let components = self.soup().map_or(0, check::components);
         Ok(object([
             ("milliseconds", milliseconds.into()),
-            ("bytes", report.bytes.into()),
+            ("bytes", bytes.into()),
             ("method", report.method.into()),
             ("components", components.into()),
             ("boundaryEdges", report.boundary_edges.into()),

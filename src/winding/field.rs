@@ -70,7 +70,7 @@ pub struct FieldReport {
     pub is_certified: bool,
     /// Nodes of the tree, if there is one.
     pub nodes: usize,
-    /// Memory the field takes beside the shape.
+    /// Memory the field takes beside the shape when just built.
     pub bytes: usize,
 }
 
@@ -138,6 +138,17 @@ impl WindingField {
 
     pub fn report(&self) -> &FieldReport {
         &self.report
+    }
+
+    /// Bytes that the field takes now, beside the shape: more than [`FieldReport::bytes`] once scattered points or the
+    /// paper's evaluator were asked for.
+    pub fn bytes(&self) -> usize {
+        let of_paper = self.of_paper.get().map_or(0, Tree::bytes);
+        of_paper
+            + match &self.engine {
+                Engine::Soup(soup) => soup.bytes(),
+                Engine::Cloud(tree) => tree.bytes(),
+            }
     }
 
     /// Points of a soup whose inside test needed an exact sum, in all tests so far.
