@@ -1,8 +1,12 @@
 //! Linear build: sort along the Morton curve, then split where the highest bit of the code changes.
 use super::{Bvh, Child, Node, WIDTH, morton_code};
+use crate::data::{map_items, set_each};
 use crate::math::Aabb;
 use rayon::prelude::*;
 use std::ops::Range;
+
+/// Nodes that one task fits boxes to.
+const NODES_PER_TASK: usize = 256;
 
 impl Bvh {
     /// Builds the hierarchy over `boxes`; leaves hold at most `leaf_size` (1 or more) of them.
@@ -10,14 +14,11 @@ impl Bvh {
     /// The same boxes give the same tree whatever the number of threads. Costs one sort.
     pub fn build(boxes: &[Aabb], leaf_size: usize) -> Bvh {
         let leaf_size = leaf_size.max(1);
-        let centers = boxes.par_iter().map(|b| b.center());
-        let bounds = centers.map(|c| Aabb { min: c, max: c }).reduce(|| Aabb::EMPTY, Aabb::union);
-        let mut sorted: Vec<(u64, u32)> = (boxes.par_iter().enumerate())
-            .map(|(item, b)| (morton_code(b.center(), &bounds), item as u32))
-            .collect();
+        let bounds = Aabb::around(boxes.iter().map(|b| b.center()));
+        let code = |item: usize| (morton_code(boxes[item].center(), &bounds), item as u32);
+        let mut sorted: Vec<(u64, u32)> = map_items(boxes.len(), code);
         sorted.par_sort_unstable();
-        let codes: Vec<u64> = sorted.par_iter().map(|s| s.0).collect();
-        let items: Vec<u32> = sorted.par_iter().map(|s| s.1).collect();
+        let (codes, items): (Vec<u64>, Vec<u32>) = sorted.into_iter().unzip();
         let (mut nodes, levels) = split_levels(&codes, leaf_size);
         fit_boxes(&mut nodes, &levels, &items, boxes);
         Bvh { nodes, levels, items }
@@ -33,7 +34,7 @@ fn split_levels(codes: &[u64], leaf_size: usize) -> (Vec<Node>, Vec<Range<usize>
     while !frontier.is_empty() {
         let start = nodes.len();
         let mut next = start + frontier.len();
-        let families: Vec<_> = frontier.par_iter().map(|range| split(codes, range, leaf_size)).collect();
+        let families: Vec<_> = map_items(frontier.len(), |k| split(codes, &frontier[k], leaf_size));
         let mut below = Vec::new();
         for family in families {
             let mut children = [Child::Empty; WIDTH];
@@ -83,7 +84,7 @@ pub fn cut_at_highest_bit(codes: &[u64], range: &Range<usize>) -> usize {
 fn fit_boxes(nodes: &mut [Node], levels: &[Range<usize>], items: &[u32], boxes: &[Aabb]) {
     for level in levels.iter().rev() {
         let (upper, lower) = nodes.split_at_mut(level.end);
-        upper[level.clone()].par_iter_mut().for_each(|node| {
+        set_each(&mut upper[level.clone()], NODES_PER_TASK, |_, node| {
             for (bounds, child) in node.bounds.iter_mut().zip(node.children) {
                 *bounds = match child {
                     Child::Empty => Aabb::EMPTY,

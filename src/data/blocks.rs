@@ -1,11 +1,8 @@
-use super::{Cancelled, Lattice, Monitor};
+use super::{Cancelled, Lattice, Monitor, map_parts, map_tasks};
 use crate::math::Vec3;
-use rayon::prelude::*;
 
 /// Samples between two reports to the monitor: some 5 ms of work on one thread.
 const SAMPLES_PER_REPORT: usize = 4096;
-/// Samples that one task takes: enough to make the cost of a task negligible.
-const SAMPLES_PER_TASK: usize = 64;
 
 /// A large buffer could not be had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -37,20 +34,10 @@ pub fn fill_in_blocks<T: Send, S: Default>(
     stage: &str,
     monitor: &dyn Monitor,
 ) -> Result<(), Cancelled> {
-    let total = values.len();
-    for (block, run) in values.chunks_mut(SAMPLES_PER_REPORT).enumerate() {
-        let start = block * SAMPLES_PER_REPORT;
-        monitor.report(start as f64 / total as f64, stage)?;
-        run.par_chunks_mut(SAMPLES_PER_TASK).enumerate().for_each_init(
-            S::default,
-            |scratch, (task, chunk)| {
-                for (offset, slot) in chunk.iter_mut().enumerate() {
-                    *slot = value(start + task * SAMPLES_PER_TASK + offset, scratch);
-                }
-            },
-        );
-    }
-    monitor.report(1.0, stage)
+    let each = |first: usize, run: &mut [T], scratch: &mut S| {
+        run.iter_mut().enumerate().for_each(|(offset, slot)| *slot = value(first + offset, scratch));
+    };
+    fill_blocks(values, each, stage, monitor)
 }
 
 /// Sets `values` in runs of up to [`BLOCK`] by `fill(index of the first, run, scratch)`, in parallel, with reports of
@@ -68,9 +55,7 @@ pub fn fill_blocks<T: Send, S: Default>(
     for (block, run) in values.chunks_mut(SAMPLES_PER_REPORT).enumerate() {
         let start = block * SAMPLES_PER_REPORT;
         monitor.report(start as f64 / total as f64, stage)?;
-        run.par_chunks_mut(BLOCK).enumerate().for_each_init(S::default, |scratch, (task, chunk)| {
-            fill(start + task * BLOCK, chunk, scratch);
-        });
+        map_parts(run, BLOCK, |task, chunk| fill(start + task * BLOCK, chunk, &mut S::default()));
     }
     monitor.report(1.0, stage)
 }
@@ -99,17 +84,15 @@ pub fn for_each_lattice_block<T: Copy + Default + Send, S: Default>(
     let per_report = SAMPLES_PER_REPORT / BLOCK;
     for first in (0..total).step_by(per_report) {
         monitor.report(first as f64 / total as f64, stage)?;
-        let run = first..total.min(first + per_report);
-        let results: Vec<_> = (run.into_par_iter())
-            .map_init(S::default, |scratch, block| {
-                let at = [block % blocks[0], block / blocks[0] % blocks[1], block / (blocks[0] * blocks[1])];
-                let samples = samples_of_block(lattice, at, shape);
-                let points: Vec<Vec3> = samples.iter().map(|s| lattice.point(*s)).collect();
-                let mut results = [T::default(); BLOCK];
-                values(&points, &mut results[..points.len()], scratch);
-                (samples, results)
-            })
-            .collect();
+        let results = map_tasks(per_report.min(total - first), |task| {
+            let block = first + task;
+            let at = [block % blocks[0], block / blocks[0] % blocks[1], block / (blocks[0] * blocks[1])];
+            let samples = samples_of_block(lattice, at, shape);
+            let points: Vec<Vec3> = samples.iter().map(|s| lattice.point(*s)).collect();
+            let mut results = [T::default(); BLOCK];
+            values(&points, &mut results[..points.len()], &mut S::default());
+            (samples, results)
+        });
         for (samples, results) in results {
             samples.iter().zip(results).for_each(|(sample, result)| store(lattice.index(*sample), result));
         }

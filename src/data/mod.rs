@@ -5,6 +5,7 @@ mod lattice;
 mod layers;
 mod mesh;
 mod monitor;
+mod parallel;
 mod soup;
 mod warning;
 
@@ -14,6 +15,7 @@ pub use lattice::{Grid, Lattice, LatticeError};
 pub use layers::{Layer, Polygon, Ring, signed_area};
 pub use mesh::SurfaceMesh;
 pub use monitor::{Cancelled, Monitor, Silent};
+pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each};
 pub use soup::{SoupError, TriangleSoup};
 pub use warning::{Warning, WarningKind};
 

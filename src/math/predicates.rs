@@ -35,6 +35,12 @@ fn orient_in_plane(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     if determinant.abs() > ORIENT_2D_BOUND * (left.abs() + right.abs()) {
         return sign(determinant);
     }
+    orient_adaptively(a, b, c)
+}
+
+#[cold]
+#[inline(never)]
+fn orient_adaptively(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
     sign(robust::orient2d(coord(a), coord(b), coord(c)))
 }
@@ -74,6 +80,12 @@ pub fn side_of_plane(q: Vec3, [a, b, c]: [Vec3; 3]) -> Sign {
     if determinant.abs() > ORIENT_3D_BOUND * permanent {
         return -sign(determinant);
     }
+    side_adaptively(q, [a, b, c])
+}
+
+#[cold]
+#[inline(never)]
+fn side_adaptively(q: Vec3, [a, b, c]: [Vec3; 3]) -> Sign {
     let coord = |p: Vec3| Coord3D { x: p.x, y: p.y, z: p.z };
     -sign(robust::orient3d(coord(a), coord(b), coord(c), coord(q)))
 }

@@ -1,10 +1,9 @@
 use super::{SliceConfig, Span, nesting};
 use crate::bvh::Bvh;
-use crate::data::{Lattice, LatticeError, Layer, Shape, TriangleSoup};
+use crate::data::{Lattice, LatticeError, Layer, Shape, TriangleSoup, map_items};
 use crate::levelset::{PlaneGrid, trace_contours};
 use crate::math::{Aabb, Vec2, Vec3};
 use crate::winding::{Scratch, WindingField};
-use rayon::prelude::*;
 
 /// Nodes along the longer side of the coarse scan for level sets that come near no geometry: the bulges in the openings
 /// of a shape. Contours smaller than a 48th of the bounds there are missed.
@@ -34,9 +33,7 @@ impl<'a> Slicer<'a> {
         let grid = PlaneGrid { origin: lattice.origin.truncate(), spacing };
         let cells = [lattice.counts[0] as i32, lattice.counts[1] as i32];
         let (boxes, reach): (Vec<Aabb>, f64) = match field.shape() {
-            Shape::Soup(soup) => {
-                ((0..soup.len()).into_par_iter().map(|t| Aabb::around(soup.corners(t))).collect(), 0.0)
-            }
+            Shape::Soup(soup) => (map_items(soup.len(), |t| Aabb::around(soup.corners(t))), 0.0),
             Shape::Cloud(cloud) => {
                 let boxes = cloud.points().iter().map(|p| Aabb { min: *p, max: *p }).collect();
                 let mean_area = cloud.areas().iter().sum::<f64>() / cloud.len().max(1) as f64;

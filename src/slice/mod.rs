@@ -7,9 +7,8 @@ mod plan;
 pub use heat_map::heat_map;
 pub use plan::{LayerPlan, PlanError, SampleAt, Span};
 
-use crate::data::{Cancelled, LatticeError, Layer, Monitor};
+use crate::data::{Cancelled, LatticeError, Layer, Monitor, map_tasks};
 use crate::winding::WindingField;
-use rayon::prelude::*;
 
 /// How contours are traced.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +53,7 @@ pub fn slice(
     // Two layers for each thread between reports: enough to keep all busy, soon enough to cancel.
     for block in spans.chunks(2 * rayon::current_num_threads()) {
         monitor.report(layers.len() as f64 / spans.len() as f64, "layers")?;
-        layers.par_extend(block.par_iter().map(|span| slicer.layer(span)));
+        layers.extend(map_tasks(block.len(), |k| slicer.layer(&block[k])));
     }
     monitor.report(1.0, "layers")?;
     Ok(layers)

@@ -5,10 +5,12 @@ use super::frame::Frame;
 use super::kernel::{Kernel, Quadrature};
 use super::moments::Moments;
 use crate::bvh::{Bvh, Child, Stack, WIDTH};
-use crate::data::BLOCK;
+use crate::data::{BLOCK, map_items, set_each};
 use crate::math::{Aabb, Vec3};
-use rayon::prelude::*;
 use wide::{f32x4, f64x4};
+
+/// Nodes whose moments one task computes.
+const NODES_PER_TASK: usize = 64;
 
 /// How a tree is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,10 +114,9 @@ impl Block {
 impl<K: Kernel> Tree<K> {
     /// Builds the tree, in parallel; the same sources give the same bits whatever the number of threads.
     pub fn build(kernel: &K, config: &TreeConfig) -> Tree<K> {
-        let boxes: Vec<Aabb> =
-            (0..kernel.len()).into_par_iter().map(|i| Aabb::around(kernel.corners(i))).collect();
+        let boxes = map_items(kernel.len(), |i| Aabb::around(kernel.corners(i)));
         let bvh = Bvh::build(&boxes, config.leaf_size);
-        let bounds = boxes.par_iter().copied().reduce(|| Aabb::EMPTY, Aabb::union);
+        let bounds = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
         let frame = Frame::around(&bounds);
         let expansions = expand(kernel, &bvh, &frame);
         let (blocks, leaf_blocks) = pack_leaves(kernel, &bvh);
@@ -230,7 +231,7 @@ fn expand<K: Kernel>(kernel: &K, bvh: &Bvh, frame: &Frame) -> Vec<Expansion> {
     let mut moments: Vec<[Option<Moments>; WIDTH]> = vec![[None; WIDTH]; bvh.nodes().len()];
     for level in bvh.levels().iter().rev() {
         let (upper, lower) = moments.split_at_mut(level.end);
-        upper[level.clone()].par_iter_mut().enumerate().for_each(|(offset, slots)| {
+        set_each(&mut upper[level.clone()], NODES_PER_TASK, |offset, slots| {
             let node = &bvh.nodes()[level.start + offset];
             for ((slot, child), bounds) in slots.iter_mut().zip(node.children).zip(node.bounds) {
                 let middle = frame.local(bounds.center());
@@ -251,15 +252,11 @@ fn expand<K: Kernel>(kernel: &K, bvh: &Bvh, frame: &Frame) -> Vec<Expansion> {
             }
         });
     }
-    (bvh.nodes().par_iter().zip(&moments))
-        .map(|(node, slots)| {
-            let mut packed = [None; WIDTH];
-            for (place, (slot, bounds)) in packed.iter_mut().zip(slots.iter().zip(&node.bounds)) {
-                *place = slot.map(|m| (m, radius(&m, bounds, frame)));
-            }
-            Expansion::pack(&packed)
-        })
-        .collect()
+    map_items(bvh.nodes().len(), |index| {
+        let bounds = &bvh.nodes()[index].bounds;
+        let pack = |k: usize| moments[index][k].map(|m| (m, radius(&m, &bounds[k], frame)));
+        Expansion::pack(&std::array::from_fn(pack))
+    })
 }
 
 /// Distance from a cluster's centre to the farthest corner of its box: an upper bound of the paper's radius, as in the
@@ -293,7 +290,7 @@ fn pack_leaves<K: Kernel>(kernel: &K, bvh: &Bvh) -> (Vec<K::Block>, LeafBlocks) 
         }
     }
     let member = |chunk: &[u32], lane: usize| chunk.get(lane).map(|&i| i as usize);
-    let blocks =
-        chunks.par_iter().map(|chunk| kernel.block([0, 1, 2, 3].map(|lane| member(chunk, lane)))).collect();
+    let block = |k: usize| kernel.block([0, 1, 2, 3].map(|lane| member(chunks[k], lane)));
+    let blocks = map_items(chunks.len(), block);
     (blocks, leaf_blocks)
 }

@@ -1,4 +1,4 @@
-use rayon::prelude::*;
+use crate::data::map_tasks;
 
 /// Inputs that one task distributes: their items stay in the cache of a core.
 const CHUNK: usize = 1 << 16;
@@ -15,16 +15,14 @@ impl<T: Copy + Default + Send + Sync> Buckets<T> {
     where
         F: Fn(usize, &mut dyn FnMut(usize, T)) + Sync,
     {
-        let starts: Vec<usize> = (0..inputs).step_by(CHUNK).collect();
-        let chunks = (starts.into_par_iter())
-            .map(|start| {
-                let mut found: Vec<(u32, T)> = Vec::with_capacity(CHUNK.min(inputs - start));
-                for input in start..inputs.min(start + CHUNK) {
-                    items(input, &mut |bucket, item| found.push((bucket as u32, item)));
-                }
-                counting_sort(&found, buckets)
-            })
-            .collect();
+        let chunks = map_tasks(inputs.div_ceil(CHUNK), |chunk| {
+            let start = chunk * CHUNK;
+            let mut found: Vec<(u32, T)> = Vec::with_capacity(CHUNK.min(inputs - start));
+            for input in start..inputs.min(start + CHUNK) {
+                items(input, &mut |bucket, item| found.push((bucket as u32, item)));
+            }
+            counting_sort(&found, buckets)
+        });
         Buckets { chunks }
     }
 

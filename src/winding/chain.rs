@@ -4,9 +4,8 @@
 //! Linear in the number of triangles: vertices and edges are distributed over buckets that fit in a cache, never kept in
 //! one large hash map.
 use super::buckets::{Buckets, counting_sort};
-use crate::data::TriangleSoup;
+use crate::data::{TriangleSoup, map_tasks};
 use crate::math::Vec3;
-use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Vertices that a bucket holds on average: a table of them fits in the first-level cache.
@@ -20,7 +19,7 @@ pub fn weld(positions: &[Vec3]) -> Vec<u32> {
         put((hash >> 32 >> (32 - bits)) as usize, (hash as u32, i as u32));
     });
     let first: Vec<AtomicU32> = (0..positions.len()).map(|_| AtomicU32::new(0)).collect();
-    (0..1usize << bits).into_par_iter().for_each(|bucket| {
+    map_tasks(1 << bits, |bucket| {
         // Open addressing, half full: the slots of a bucket hold the tag of a hash and the first vertex that had it.
         let mask = (2 * vertices.count(bucket)).next_power_of_two() - 1;
         let mut slots = vec![(0, u32::MAX); mask + 1];
@@ -66,7 +65,7 @@ pub fn net_edges(soup: &TriangleSoup, welded: &[u32]) -> Vec<[u32; 2]> {
             }
         }
     });
-    (0..buckets).into_par_iter().flat_map_iter(|bucket| net_of_bucket(&edges, bucket)).collect()
+    map_tasks(buckets, |bucket| net_of_bucket(&edges, bucket)).concat()
 }
 
 fn net_of_bucket(edges: &Buckets<(u32, u32, bool)>, bucket: usize) -> Vec<[u32; 2]> {
@@ -93,14 +92,16 @@ fn net_of_bucket(edges: &Buckets<(u32, u32, bool)>, bucket: usize) -> Vec<[u32; 
 /// The chain as simple cycles: closed walks that visit no vertex twice. Cut off a walk whenever it comes back to one of
 /// its vertices; as many edges of a net chain leave a vertex as enter it, so a walk never gets stuck.
 pub fn cycles(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
-    let mut outgoing = edges.to_vec();
+    // By start, then by end.
+    let mut outgoing: Vec<u64> = edges.iter().map(|e| u64::from(e[0]) << 32 | u64::from(e[1])).collect();
     outgoing.sort_unstable();
-    let mut vertices: Vec<u32> = outgoing.iter().map(|e| e[0]).collect();
+    let start = |edge: &u64| (edge >> 32) as u32;
+    let mut vertices: Vec<u32> = outgoing.iter().map(start).collect();
     vertices.dedup();
     let local = |v: u32| vertices.binary_search(&v).expect("every vertex of a cycle is left");
-    let ends: Vec<u32> = outgoing.iter().map(|e| local(e[1]) as u32).collect();
+    let ends: Vec<u32> = outgoing.iter().map(|edge| local(*edge as u32) as u32).collect();
     let mut next: Vec<usize> =
-        vertices.iter().map(|v| outgoing.partition_point(|e| e[0] < *v)).chain([edges.len()]).collect();
+        vertices.iter().map(|v| outgoing.partition_point(|e| start(e) < *v)).chain([edges.len()]).collect();
     let last = next[1..].to_vec();
 
     const OFF: usize = usize::MAX;

@@ -8,12 +8,13 @@
 //!
 //! Crossing and solid angle jump together where q passes under an edge: there the argument is near ±π, and its sign is
 //! that of the exact predicate which also decides the crossing.
+use super::angle_product::AngleProduct;
+use crate::bvh::WIDTH;
 use crate::math::{Vec3, normal_signs, side_of_edge};
-use std::f64::consts::TAU;
-use wide::{f64x4, i64x4};
+use wide::f64x4;
 
 /// Queries evaluated together.
-pub const LANES: usize = 4;
+pub const LANES: usize = WIDTH;
 
 /// Relative error of a cross product of two rounded differences, with a margin.
 const CROSS_ERROR: f64 = 4.0 * f64::EPSILON;
@@ -62,17 +63,17 @@ impl Curtain {
     /// Σ (solid angles of the curtains) / 4π at four queries. Not defined on a boundary edge itself.
     pub fn fractions(&self, queries: &[Vec3; LANES]) -> [f64; LANES] {
         let lanes = [0, 1, 2].map(|axis| f64x4::from(queries.map(|q| q[axis])));
-        let mut product = Product::ONE;
+        let mut product = AngleProduct::ONE;
         for cycle in &self.cycles {
             let mut from = cycle[cycle.len() - 1];
             let mut from_end = end(from, &lanes);
             for &to in cycle {
                 let to_end = end(to, &lanes);
-                product.multiply(&from_end, &to_end, || [from, to], queries);
+                multiply(&mut product, &from_end, &to_end, [from, to], queries);
                 (from, from_end) = (to, to_end);
             }
         }
-        product.turns()
+        product.turns_of_lanes()
     }
 
     /// [`Curtain::fractions`] at one query.
@@ -101,42 +102,18 @@ fn end(p: Vec3, q: &[f64x4; 3]) -> End {
     End { s: on_axis.bitselect(f64x4::ZERO, s), y, z }
 }
 
-/// A product of complex numbers with the number of times it went around, in each lane.
-struct Product {
-    real: f64x4,
-    imaginary: f64x4,
-    wraps: f64x4,
-}
-
-impl Product {
-    const ONE: Product = Product { real: f64x4::ONE, imaginary: f64x4::ZERO, wraps: f64x4::ZERO };
-
-    #[inline(always)]
-    fn multiply(&mut self, a: &End, b: &End, edge: impl Fn() -> [Vec3; 2], queries: &[Vec3; LANES]) {
-        let real = a.s * b.s + a.y * b.y + a.z * b.z;
-        let (left, right) = (a.y * b.z, a.z * b.y);
-        let mut imaginary = left - right;
-        let bound = f64x4::splat(CROSS_ERROR) * (left.abs() + right.abs());
-        let doubtful = real.simd_lt(f64x4::ZERO) & imaginary.abs().simd_le(bound);
-        if doubtful.any() {
-            imaginary = decided(imaginary, doubtful, edge(), queries);
-        }
-        let zero = f64x4::ZERO;
-        let new_real = self.real * real - self.imaginary * imaginary;
-        let new_imaginary = self.real * imaginary + self.imaginary * real;
-        let (was, with) = (self.imaginary.simd_ge(zero), imaginary.simd_ge(zero));
-        let is = new_imaginary.simd_ge(zero);
-        // Past π, and its mirror.
-        self.wraps += (was & with & !is & f64x4::ONE) - (!was & !with & is & f64x4::ONE);
-        let scale = reciprocal_power_of_two(new_real.abs() + new_imaginary.abs());
-        self.real = new_real * scale;
-        self.imaginary = new_imaginary * scale;
+/// Multiplies by the factors of an edge, one for each query.
+#[inline(always)]
+fn multiply(product: &mut AngleProduct, a: &End, b: &End, edge: [Vec3; 2], queries: &[Vec3; LANES]) {
+    let real = a.s * b.s + a.y * b.y + a.z * b.z;
+    let (left, right) = (a.y * b.z, a.z * b.y);
+    let mut imaginary = left - right;
+    let bound = f64x4::splat(CROSS_ERROR) * (left.abs() + right.abs());
+    let doubtful = real.simd_lt(f64x4::ZERO) & imaginary.abs().simd_le(bound);
+    if doubtful.any() {
+        imaginary = decided(imaginary, doubtful, edge, queries);
     }
-
-    fn turns(self) -> [f64; LANES] {
-        let [real, imaginary, wraps] = [self.real, self.imaginary, self.wraps].map(|v| v.to_array());
-        std::array::from_fn(|k| libm::atan2(imaginary[k] + 0.0, real[k]) / TAU + wraps[k])
-    }
+    product.multiply(real, imaginary);
 }
 
 /// Imaginary parts with the signs of the exact predicate in the doubtful lanes.
@@ -149,15 +126,6 @@ fn decided(imaginary: f64x4, doubtful: f64x4, [from, to]: [Vec3; 2], queries: &[
         parts[k] = f64::from(side_of_edge(queries[k], from, to)) * size;
     }
     f64x4::from(parts)
-}
-
-/// 2⁻ᵉ for a positive normal number with exponent e: it keeps products from overflowing and rounds nothing.
-#[inline(always)]
-fn reciprocal_power_of_two(x: f64x4) -> f64x4 {
-    const EXPONENT: i64 = 0x7ff0_0000_0000_0000;
-    const TWICE_BIAS: i64 = 0x7fe0_0000_0000_0000;
-    let bits: i64x4 = wide::bytemuck::cast(x);
-    wide::bytemuck::cast(i64x4::splat(TWICE_BIAS) - (bits & i64x4::splat(EXPONENT)))
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 use super::error_model::{CLOUD_ERROR, COARSE_BETA, ErrorModel, FINE_BETA, SOUP_ERROR};
 use super::soup_field::{HALF, SoupField};
+use super::triangles::Triangles;
 use crate::data::{
-    BLOCK, Cancelled, Grid, Lattice, LatticeError, Monitor, OrientedCloud, OutOfMemory, Shape, TriangleSoup,
-    fill_blocks, fill_in_blocks, for_each_lattice_block, zeroed,
+    BLOCK, Cancelled, Grid, Lattice, LatticeError, Monitor, OrientedCloud, OutOfMemory, Shape, fill_blocks,
+    fill_in_blocks, for_each_lattice_block, zeroed,
 };
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{Order, Scratch, Tree, TreeConfig};
@@ -101,7 +102,7 @@ pub struct WindingField {
     config: TreeConfig,
     engine: Engine,
     /// The paper's evaluator of a soup, built when its parameters are asked for.
-    of_paper: OnceLock<Tree<TriangleSoup>>,
+    of_paper: OnceLock<Tree<Triangles>>,
     bounds: Aabb,
     report: FieldReport,
 }
@@ -200,12 +201,12 @@ impl WindingField {
 
     /// The paper's evaluator. Built outside of the cell that holds it: a thread that waited for another to build could be
     /// the one whose help that other waits for.
-    fn of_paper(&self) -> &Tree<TriangleSoup> {
+    fn of_paper(&self) -> &Tree<Triangles> {
         let Shape::Soup(soup) = &self.shape else { unreachable!("clouds have their tree from the start") };
         if let Some(tree) = self.of_paper.get() {
             return tree;
         }
-        let _ = self.of_paper.set(Tree::build(&**soup, &self.config));
+        let _ = self.of_paper.set(Tree::build(&Triangles::new(soup.clone()), &self.config));
         self.of_paper.get().expect("it was set just now, here or by another thread")
     }
 

@@ -10,11 +10,11 @@
 //! as much as the direct sum. It is the baseline of Barill et al. 2018 (fig. 10, section 3.3).
 use super::FieldError;
 use super::chain::weld;
+use super::triangles::{TriangleBlock, Triangles};
 use crate::bvh::{Bvh, Child, Stack, WIDTH};
-use crate::data::{Monitor, TriangleSoup, fill_in_blocks, zeroed};
+use crate::data::{Monitor, TriangleSoup, fill_in_blocks, map_items, set_each, zeroed};
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{Kernel, Lanes};
-use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::ops::Range;
 use wide::f64x4;
@@ -31,10 +31,8 @@ pub struct ExactHierarchy {
     stands: Vec<[Stand; WIDTH]>,
     /// The triangles of the leaves, four to a block; none for an inner child.
     leaves: Vec<[Range<usize>; WIDTH]>,
-    blocks: Vec<Block>,
+    blocks: Vec<TriangleBlock>,
 }
-
-type Block = <TriangleSoup as Kernel>::Block;
 
 /// Blocks to sum for a box from outside; none where it takes fewer to look into it.
 type Stand = Option<Range<usize>>;
@@ -42,8 +40,7 @@ type Stand = Option<Range<usize>>;
 impl ExactHierarchy {
     /// Builds the hierarchy, in parallel.
     pub fn new(soup: &TriangleSoup) -> ExactHierarchy {
-        let boxes: Vec<Aabb> =
-            (0..soup.len()).into_par_iter().map(|t| Aabb::around(soup.corners(t))).collect();
+        let boxes: Vec<Aabb> = map_items(soup.len(), |t| Aabb::around(soup.corners(t)));
         let bvh = Bvh::build(&boxes, LEAF_SIZE);
         let builder = Builder { soup, bvh: &bvh, welded: weld(soup.positions()) };
         let (whole, pieces) = builder.pieces();
@@ -83,18 +80,18 @@ impl ExactHierarchy {
             return f64::NAN;
         }
         let lanes: Lanes = q.to_array().map(f64x4::splat);
-        let total = |sum| <TriangleSoup as Kernel>::total(sum);
+        let total = |sum| Triangles::total(sum);
         let add = |sum: &mut _, blocks: &Range<usize>| {
-            self.blocks[blocks.clone()].iter().for_each(|b| <TriangleSoup as Kernel>::add(sum, b, &lanes));
+            self.blocks[blocks.clone()].iter().for_each(|b| Triangles::add(sum, b, &lanes));
         };
-        let mut sum = <TriangleSoup as Kernel>::sum();
+        let mut sum = Triangles::sum();
         if let (bounds, Some(stand)) = &self.whole
             && !bounds.contains(q)
         {
             add(&mut sum, stand);
             return total(sum);
         }
-        let mut inner = <TriangleSoup as Kernel>::sum();
+        let mut inner = Triangles::sum();
         let visit = |node: usize, ()| {
             let bounds = &self.bvh.nodes()[node].bounds;
             let mut open = 0;
@@ -143,7 +140,7 @@ impl Builder<'_> {
         let mut pieces: Vec<[Piece; WIDTH]> = vec![Default::default(); self.bvh.nodes().len()];
         for level in self.bvh.levels().iter().rev() {
             let (upper, lower) = pieces.split_at_mut(level.end);
-            upper[level.clone()].par_iter_mut().enumerate().for_each(|(offset, slots)| {
+            set_each(&mut upper[level.clone()], 16, |offset, slots| {
                 let node = &self.bvh.nodes()[level.start + offset];
                 for (slot, child) in slots.iter_mut().zip(node.children) {
                     *slot = match child {
@@ -224,29 +221,24 @@ fn sum_of_chains(a: &[([u32; 2], i32)], b: &[([u32; 2], i32)]) -> Vec<([u32; 2],
 /// Collects blocks of four triangles.
 struct Packing<'a> {
     soup: &'a TriangleSoup,
-    blocks: Vec<Block>,
+    blocks: Vec<TriangleBlock>,
 }
 
 impl Packing<'_> {
     fn leaf(&mut self, triangles: &[u32]) -> Range<usize> {
-        let start = self.blocks.len();
-        let corners = triangles
-            .chunks(WIDTH)
-            .map(|four| self.soup.block([0, 1, 2, 3].map(|lane| four.get(lane).map(|&t| t as usize))));
-        self.blocks.extend(corners);
-        start..self.blocks.len()
+        self.pack(triangles.iter().map(|t| self.soup.corners(*t as usize)).collect())
     }
 
     fn stand(&mut self, piece: &Piece) -> Stand {
         let cone = piece.cone.as_ref()?;
+        let corners = |t: &[u32; 3]| t.map(|v| self.soup.positions()[v as usize]);
+        Some(self.pack(cone.iter().map(corners).collect()))
+    }
+
+    fn pack(&mut self, triangles: Vec<[Vec3; 3]>) -> Range<usize> {
         let start = self.blocks.len();
-        for four in cone.chunks(WIDTH) {
-            let corner = |lane: usize, corner: usize| {
-                four.get(lane).map_or(Vec3::ZERO, |t| self.soup.positions()[t[corner] as usize])
-            };
-            let lanes = |c: usize, axis: usize| f64x4::from([0, 1, 2, 3].map(|lane| corner(lane, c)[axis]));
-            self.blocks.push([0, 1, 2].map(|c| [0, 1, 2].map(|axis| lanes(c, axis))));
-        }
-        Some(start..self.blocks.len())
+        let block = |four: &[[Vec3; 3]]| TriangleBlock::new(std::array::from_fn(|k| four.get(k).copied()));
+        self.blocks.extend(triangles.chunks(WIDTH).map(block));
+        start..self.blocks.len()
     }
 }

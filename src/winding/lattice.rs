@@ -3,10 +3,9 @@ use super::curtain::LANES;
 use super::field::FieldError;
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{FractionBy, SoupField, TIE};
-use crate::data::{Cancelled, Lattice, Monitor, for_each_lattice_block, zeroed};
+use crate::data::{Cancelled, Lattice, Monitor, for_each_lattice_block, map_items, map_parts, zeroed};
 use crate::math::Vec3;
 use crate::treecode::Scratch;
-use rayon::prelude::*;
 
 /// Slabs between two reports to the monitor.
 const SLABS_PER_REPORT: usize = 8;
@@ -39,9 +38,8 @@ impl SoupField {
             let store = |index: usize, fraction: f64| values[index] += fraction;
             for_each_lattice_block(lattice, fractions, store, stage, monitor)?;
         }
-        let principal: Vec<f64> = (on_surface.par_iter())
-            .map(|index| self.principal_at(lattice.point(lattice.sample(*index))))
-            .collect();
+        let principal =
+            map_items(on_surface.len(), |k| self.principal_at(lattice.point(lattice.sample(on_surface[k]))));
         on_surface.iter().zip(principal).for_each(|(index, value)| values[*index] = value);
         Ok(values)
     }
@@ -138,12 +136,11 @@ fn for_each_slab<T: Send, R: Send>(
     for (run, parts) in output.chunks_mut(SLABS_PER_REPORT * part).enumerate() {
         let first = run * SLABS_PER_REPORT;
         monitor.report(first as f64 / scan.slabs() as f64, stage)?;
-        let of_run: Vec<Vec<R>> = (parts.par_chunks_mut(part).enumerate())
-            .map_init(Slab::default, |counted, (slab, part)| {
-                scan.count(first + slab, counted);
-                fill(first + slab, counted, part)
-            })
-            .collect();
+        let of_run = map_parts(parts, part, |slab, part| {
+            let mut counted = Slab::default();
+            scan.count(first + slab, &mut counted);
+            fill(first + slab, &counted, part)
+        });
         found.extend(of_run.into_iter().flatten());
     }
     monitor.report(1.0, stage)?;

@@ -5,9 +5,8 @@
 use super::buckets::Buckets;
 use super::facets::{Facets, Role};
 use super::scan::{Scan, Slab};
-use crate::data::Lattice;
+use crate::data::{Lattice, map_items, map_parts, map_tasks};
 use crate::math::{Aabb, Vec3, covers, orient_yz, perturbed_side_of_plane, touches};
-use rayon::prelude::*;
 
 /// Most and fewest cells along a side. On the bunny 128 answers fastest: 256³ bytes no longer stay in the caches.
 const SIDES: std::ops::RangeInclusive<usize> = 4..=128;
@@ -136,8 +135,7 @@ impl Locator {
                 self.columns_side = side / 2;
                 continue;
             }
-            let lists: Vec<Vec<u32>> =
-                (0..side * side).into_par_iter().map(|c| columns.bucket(c).collect()).collect();
+            let lists: Vec<Vec<u32>> = map_items(side * side, |c| columns.bucket(c).collect());
             self.starts = std::iter::once(0)
                 .chain(lists.iter().scan(0, |sum, list| {
                     *sum += list.len() as u32;
@@ -155,28 +153,26 @@ impl Locator {
         let lattice = Lattice { origin: self.origin + 0.5 * spacing, spacing, counts: [side, side, side] };
         let scan = Scan::new(facets, 0..facets.len(), &lattice);
         let slab_cells = side * side * super::scan::SLAB_PLANES;
-        self.cells.par_chunks_mut(slab_cells).enumerate().for_each_init(Slab::default, |slab, (s, cells)| {
-            scan.count(s, slab);
+        map_parts(&mut self.cells, slab_cells, |s, cells| {
+            let mut slab = Slab::default();
+            scan.count(s, &mut slab);
             for (cell, crossings) in cells.iter_mut().zip(&slab.crossings) {
                 *cell = i8::try_from(*crossings).unwrap_or(MIXED);
             }
         });
-        let mixed: Vec<Vec<u32>> = (0..facets.len().div_ceil(4096))
-            .into_par_iter()
-            .map(|chunk| {
-                let mut found = Vec::new();
-                for facet in 4096 * chunk..facets.len().min(4096 * (chunk + 1)) {
-                    let corners = facets.corners(facet);
-                    for_each_square(&corners, self.origin, self.density, side, |j, k, [low, high]| {
-                        let bounded = |c: f64| c.floor().clamp(0.0, side as f64 - 1.0) as usize;
-                        for i in bounded(low - 1e-3)..=bounded(high + 1e-3) {
-                            found.push(((k * side + j) * side + i) as u32);
-                        }
-                    });
-                }
-                found
-            })
-            .collect();
+        let mixed: Vec<Vec<u32>> = map_tasks(facets.len().div_ceil(4096), |chunk| {
+            let mut found = Vec::new();
+            for facet in 4096 * chunk..facets.len().min(4096 * (chunk + 1)) {
+                let corners = facets.corners(facet);
+                for_each_square(&corners, self.origin, self.density, side, |j, k, [low, high]| {
+                    let bounded = |c: f64| c.floor().clamp(0.0, side as f64 - 1.0) as usize;
+                    for i in bounded(low - 1e-3)..=bounded(high + 1e-3) {
+                        found.push(((k * side + j) * side + i) as u32);
+                    }
+                });
+            }
+            found
+        });
         mixed.into_iter().flatten().for_each(|cell| self.cells[cell as usize] = MIXED);
     }
 
@@ -202,15 +198,12 @@ impl Locator {
         const TOP: usize = 16;
         let block = TOP.min(self.side);
         let blocks = self.side / block;
-        let tops: Vec<Vec<i8>> = (0..blocks * blocks * blocks)
-            .into_par_iter()
-            .map(|top| {
-                let at = [top % blocks, top / blocks % blocks, top / (blocks * blocks)].map(|c| c * block);
-                let mut answers = vec![unknown; block * block * block];
-                self.descend(at, at, block, block, &decide, &mut answers);
-                answers
-            })
-            .collect();
+        let tops = map_tasks(blocks * blocks * blocks, |top| {
+            let at = [top % blocks, top / blocks % blocks, top / (blocks * blocks)].map(|c| c * block);
+            let mut answers = vec![unknown; block * block * block];
+            self.descend(at, at, block, block, &decide, &mut answers);
+            answers
+        });
         let mut cells = vec![unknown; self.cells.len()];
         for (cell, answer) in cells.iter_mut().enumerate() {
             let at = [cell % self.side, cell / self.side % self.side, cell / (self.side * self.side)];

@@ -3,6 +3,7 @@
 //! `exact` is the definition and the oracle. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
 //! (`scan` on lattices, `locate` at scattered points) and a fraction of what closes it (`chain`, `closure`, `curtain`); a
 //! cloud's is the tree of Barill et al. 2018. `hierarchy` and `parity` are the methods that the paper compares itself with.
+mod angle_product;
 mod buckets;
 mod certificate;
 mod chain;
@@ -19,7 +20,6 @@ mod lattice;
 mod locate;
 mod near;
 mod parity;
-mod pieces;
 mod scan;
 mod soup_field;
 mod surface_rule;
@@ -32,3 +32,4 @@ pub use field::{Accuracy, FieldConfig, FieldError, FieldReport, WindingField};
 pub use gradient::{edge_gradient, winding_gradient, winding_gradient_of_cloud, winding_gradient_of_soup};
 pub use hierarchy::ExactHierarchy;
 pub use parity::{RayParity, Rays};
+pub use triangles::Triangles;

@@ -7,8 +7,8 @@ use super::exact::winding_of_soup;
 use super::facets::Facets;
 use super::gradient::edge_gradient;
 use super::locate::Locator;
-use super::pieces::Pieces;
 use super::surface_rule::{share_of_touching, touches_inside};
+use super::triangles::Triangles;
 use crate::bvh::WIDTH;
 use crate::data::{BLOCK, TriangleSoup};
 use crate::math::{Vec3, covers, orient_yz, perturbed_side_of_plane};
@@ -30,10 +30,12 @@ pub(super) const TIE: f64 = 1e-12;
 
 pub struct SoupField {
     pub(super) soup: Arc<TriangleSoup>,
-    pub(super) closure: Closure,
+    pub(super) closure: Arc<Closure>,
     pub(super) curtain: Curtain,
     pub(super) balls: CapBalls,
-    pieces: Option<Tree<Pieces>>,
+    /// What the fraction is summed over, and the tree over it if it is worth one.
+    sources: Triangles,
+    tree: Option<Tree<Triangles>>,
     index: OnceLock<Index>,
     refined: AtomicUsize,
 }
@@ -61,13 +63,18 @@ impl SoupField {
         let mut closure = Closure::of(&soup);
         let curtain = Curtain::new(std::mem::take(&mut closure.cycles));
         let needs_tree = !closure.loose.is_empty() || curtain.edges() > FEW_EDGES;
-        let pieces = needs_tree.then(|| {
-            let loose = closure.loose.iter().map(|t| soup.corners(*t as usize));
-            Tree::build(&Pieces::new(closure.caps.clone(), loose), config)
-        });
-        let balls = CapBalls::new(&closure.caps);
-        let refined = AtomicUsize::new(0);
-        SoupField { soup, closure, curtain, balls, pieces, index: OnceLock::new(), refined }
+        let closure = Arc::new(closure);
+        let sources = Triangles::of_fraction(soup.clone(), closure.clone());
+        SoupField {
+            balls: CapBalls::new(&closure.caps),
+            tree: needs_tree.then(|| Tree::build(&sources, config)),
+            soup,
+            closure,
+            curtain,
+            sources,
+            index: OnceLock::new(),
+            refined: AtomicUsize::new(0),
+        }
     }
 
     pub fn counts(&self) -> ClosureCounts {
@@ -94,11 +101,11 @@ impl SoupField {
 
     pub fn bytes(&self) -> usize {
         let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.least.len());
-        self.closure.bytes() + self.pieces.as_ref().map_or(0, Tree::bytes) + index
+        self.closure.bytes() + self.tree.as_ref().map_or(0, Tree::bytes) + index
     }
 
     pub fn nodes(&self) -> usize {
-        self.pieces.as_ref().map_or(0, Tree::nodes)
+        self.tree.as_ref().map_or(0, Tree::nodes)
     }
 
     pub(super) fn facets(&self) -> Facets<'_> {
@@ -108,7 +115,7 @@ impl SoupField {
     /// How a fraction of the given expansion is summed, or of none: exactly.
     pub fn fraction_by(&self, expansion: Option<(Order, f64)>) -> FractionBy {
         match expansion {
-            Some((order, beta)) if self.pieces.is_some() => FractionBy::Tree { order, beta },
+            Some((order, beta)) if self.tree.is_some() => FractionBy::Tree { order, beta },
             _ => FractionBy::Edges,
         }
     }
@@ -116,9 +123,9 @@ impl SoupField {
     /// Fractions at up to [`BLOCK`] points that lie close together, to which the crossings of the surface, for
     /// [`FractionBy::Tree`] those of the caps too, are to be added.
     pub fn fractions(&self, points: &[Vec3], by: FractionBy, results: &mut [f64], scratch: &mut Scratch) {
-        match (by, &self.pieces) {
-            (FractionBy::Tree { order, beta }, Some(pieces)) => {
-                pieces.at_block(points, results, order, beta, scratch);
+        match (by, &self.tree) {
+            (FractionBy::Tree { order, beta }, Some(tree)) => {
+                tree.at_block(points, results, order, beta, scratch);
             }
             _ => self.exact_fractions(points, results),
         }
@@ -140,12 +147,12 @@ impl SoupField {
             return 0.0;
         }
         let lanes = q.to_array().map(f64x4::splat);
-        let mut sum = TriangleSoup::sum();
-        for four in self.closure.loose.chunks(WIDTH) {
-            let block = self.soup.block(std::array::from_fn(|k| four.get(k).map(|t| *t as usize)));
-            TriangleSoup::add(&mut sum, &block, &lanes);
+        let mut sum = Triangles::sum();
+        for first in (self.closure.caps.len()..self.sources.len()).step_by(WIDTH) {
+            let member = |k: usize| Some(first + k).filter(|m| *m < self.sources.len());
+            Triangles::add(&mut sum, &self.sources.block(std::array::from_fn(member)), &lanes);
         }
-        TriangleSoup::total(sum)
+        Triangles::total(sum)
     }
 
     /// Makes ready what scattered points need. Built outside of the cell that holds it: a thread that waited for another
@@ -180,8 +187,8 @@ impl SoupField {
         if !q.is_finite() {
             return Vec3::NAN;
         }
-        if let (FractionBy::Tree { order, beta }, Some(pieces)) = (by, &self.pieces) {
-            return pieces.gradient(q, order, beta, scratch);
+        if let (FractionBy::Tree { order, beta }, Some(tree)) = (by, &self.tree) {
+            return tree.gradient(q, order, beta, scratch);
         }
         let sides = |t: &u32| {
             let [a, b, c] = self.soup.corners(*t as usize);

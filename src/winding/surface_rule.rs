@@ -109,24 +109,29 @@ fn directions_within(fan: &Fan, fans: &[Fan]) -> Vec<Vec3> {
     let Some([first, _]) = fan.sectors.first() else { return vec![] };
     let (x, y) = (*first, fan.normal.cross(*first));
     let angle = |d: Vec3| libm::atan2(d.dot(y), d.dot(x)).rem_euclid(TAU);
-    let cuts: Vec<f64> = (fans.iter())
+    let cuts: Vec<Vec3> = (fans.iter())
         .map(|other| fan.normal.cross(other.normal))
         .filter(|line| line.length() > FLAT)
-        .flat_map(|line| [angle(line), angle(-line)])
+        .flat_map(|line| [line.normalize(), -line.normalize()])
         .collect();
     let mut directions = Vec::new();
     for [u, v] in &fan.sectors {
-        let (from, width) = (angle(*u), libm::atan2(u.cross(*v).dot(fan.normal), u.dot(*v)));
-        let mut ends: Vec<f64> =
-            cuts.iter().map(|c| (c - from).rem_euclid(TAU)).filter(|c| *c < width).collect();
-        ends.extend([0.0, width]);
-        ends.sort_by(f64::total_cmp);
-        for pair in ends.windows(2).filter(|pair| pair[1] - pair[0] > FLAT) {
-            let middle = from + 0.5 * (pair[0] + pair[1]);
-            directions.push(libm::cos(middle) * x + libm::sin(middle) * y);
-        }
+        let turn = |d: &Vec3| (angle(*d) - angle(*u)).rem_euclid(TAU);
+        let mut rays: Vec<(f64, Vec3)> = cuts.iter().map(|c| (turn(c), *c)).collect();
+        rays.retain(|(turned, _)| *turned < turn(v));
+        rays.extend([(0.0, *u), (turn(v), *v)]);
+        rays.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let between = rays.windows(2).filter(|pair| pair[1].0 - pair[0].0 > FLAT);
+        directions.extend(between.map(|pair| bisector(pair[0].1, pair[1].1, fan.normal)));
     }
     directions
+}
+
+/// The unit direction halfway from `u` to `v`, less than half a turn away about `axis`.
+fn bisector(u: Vec3, v: Vec3, axis: Vec3) -> Vec3 {
+    // Of wide angles both rays are turned by a right angle to the inside first: opposite ones would cancel.
+    let sum = if u.dot(v) > 0.0 { u + v } else { axis.cross(u) + v.cross(axis) };
+    sum.normalize_or_zero()
 }
 
 #[cfg(test)]

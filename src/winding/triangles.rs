@@ -1,34 +1,80 @@
 //! Triangles as sources: solid angles near, dipole moments far (Barill et al. 2018, section 3.3).
+use super::angle_product::AngleProduct;
+use super::closure::Closure;
 use crate::bvh::WIDTH;
 use crate::data::TriangleSoup;
-use crate::math::{Vec3, area_vector};
+use crate::math::{Vec3, area_vector, perturbed_side_of_plane};
 use crate::treecode::{Kernel, Lanes, Quadrature};
-use std::f64::consts::TAU;
-use wide::{f64x4, i64x4};
+use std::sync::Arc;
+use wide::f64x4;
 
-impl Kernel for TriangleSoup {
-    type Block = [Lanes; 3];
+/// Relative rounding error of a triple product of differences, with a margin.
+const ERROR: f64 = 16.0 * f64::EPSILON;
+
+/// All triangles of a soup; or with a closure the sources of the soup's fraction: its caps, then its loose triangles.
+pub struct Triangles {
+    soup: Arc<TriangleSoup>,
+    closure: Option<Arc<Closure>>,
+}
+
+impl Triangles {
+    /// All triangles of a soup: what the paper's evaluator sums.
+    pub fn new(soup: Arc<TriangleSoup>) -> Triangles {
+        Triangles { soup, closure: None }
+    }
+
+    pub(super) fn of_fraction(soup: Arc<TriangleSoup>, closure: Arc<Closure>) -> Triangles {
+        Triangles { soup, closure: Some(closure) }
+    }
+}
+
+/// Four triangles, of which some may be caps.
+#[derive(Clone)]
+pub struct TriangleBlock {
+    corners: [Lanes; 3],
+    /// One bit for each lane.
+    caps: u8,
+}
+
+impl TriangleBlock {
+    /// Up to four triangles. A lane without one holds three equal corners: it has no normal and adds nothing.
+    pub fn new(triangles: [Option<[Vec3; 3]>; WIDTH]) -> TriangleBlock {
+        let triangles = triangles.map(|t| t.unwrap_or([Vec3::ZERO; 3]));
+        let lanes = |corner: usize, axis: usize| f64x4::from(triangles.map(|t| t[corner][axis]));
+        TriangleBlock { corners: [0, 1, 2].map(|c| [0, 1, 2].map(|axis| lanes(c, axis))), caps: 0 }
+    }
+}
+
+impl Kernel for Triangles {
+    type Block = TriangleBlock;
     type Sum = AngleProduct;
 
     fn len(&self) -> usize {
-        self.triangles().len()
+        self.closure.as_ref().map_or(self.soup.len(), |c| c.caps.len() + c.loose.len())
     }
 
     fn corners(&self, index: usize) -> [Vec3; 3] {
-        TriangleSoup::corners(self, index)
+        match &self.closure {
+            None => self.soup.corners(index),
+            Some(closure) => match index.checked_sub(closure.caps.len()) {
+                None => closure.caps[index],
+                Some(place) => self.soup.corners(closure.loose[place] as usize),
+            },
+        }
     }
 
     fn quadrature(&self, index: usize) -> Quadrature {
-        let [a, b, c] = TriangleSoup::corners(self, index);
+        let [a, b, c] = self.corners(index);
         let area_vector = area_vector([a, b, c]);
         let points = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
         Quadrature { points, area_vector, area: area_vector.length() }
     }
 
-    /// A lane without a triangle holds three equal corners: it has no normal and adds nothing.
-    fn block(&self, members: [Option<usize>; WIDTH]) -> [Lanes; 3] {
-        let corners = members.map(|m| m.map_or([Vec3::ZERO; 3], |i| TriangleSoup::corners(self, i)));
-        [0, 1, 2].map(|corner| [0, 1, 2].map(|axis| f64x4::from(corners.map(|c| c[corner][axis]))))
+    fn block(&self, members: [Option<usize>; WIDTH]) -> TriangleBlock {
+        let count = self.closure.as_ref().map_or(0, |c| c.caps.len());
+        let is_cap = |k: &usize| members[*k].is_some_and(|i| i < count);
+        let caps = (0..WIDTH).filter(is_cap).fold(0, |bits, k| bits | 1 << k);
+        TriangleBlock { caps, ..TriangleBlock::new(members.map(|m| m.map(|i| self.corners(i)))) }
     }
 
     fn sum() -> AngleProduct {
@@ -36,8 +82,23 @@ impl Kernel for TriangleSoup {
     }
 
     #[inline(always)]
-    fn add(sum: &mut AngleProduct, corners: &[Lanes; 3], q: &Lanes) {
-        let (denominator, numerator, _) = angle(corners, q);
+    fn add(sum: &mut AngleProduct, block: &TriangleBlock, q: &Lanes) {
+        let [a, b, c] = &block.corners;
+        // The normal from edges, not from corners relative to the query: that stays accurate far away.
+        let (u, v) = (minus(b, a), minus(c, a));
+        let normal = cross(&u, &v);
+        let (a, b, c) = (minus(a, q), minus(b, q), minus(c, q));
+        let mut numerator = dot(&a, &normal);
+        let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
+        let denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
+        if block.caps != 0 {
+            let size = la * dot(&u, &u).sqrt() * dot(&v, &v).sqrt();
+            let is_small = numerator.abs().simd_le(f64x4::splat(ERROR) * size);
+            let doubtful = (is_small & denominator.simd_le(f64x4::ZERO)).to_bitmask() & u32::from(block.caps);
+            if doubtful != 0 {
+                numerator = decided(numerator, doubtful, block, q);
+            }
+        }
         sum.multiply(denominator, numerator);
     }
 
@@ -46,14 +107,28 @@ impl Kernel for TriangleSoup {
     }
 
     #[inline(always)]
-    fn add_gradient(sum: &mut Lanes, corners: &[Lanes; 3], q: &Lanes) {
-        let relative = corners.each_ref().map(|c| minus(c, q));
+    fn add_gradient(sum: &mut Lanes, block: &TriangleBlock, q: &Lanes) {
+        let relative = block.corners.each_ref().map(|c| minus(c, q));
         let lengths = relative.each_ref().map(|r| dot(r, r).sqrt());
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            let along = minus(&corners[j], &corners[i]);
+            let along = minus(&block.corners[j], &block.corners[i]);
             add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
         }
     }
+}
+
+/// Numerators with the sign that the exact predicate gives q' in the doubtful lanes, where the query lies on a cap or next
+/// to it: its solid angle then jumps exactly where its crossing does.
+#[cold]
+fn decided(numerator: f64x4, doubtful: u32, block: &TriangleBlock, q: &Lanes) -> f64x4 {
+    let mut parts = numerator.to_array();
+    for k in (0..WIDTH).filter(|k| doubtful >> k & 1 == 1) {
+        let at = |lanes: &Lanes| Vec3::from_array([0, 1, 2].map(|axis| lanes[axis].to_array()[k]));
+        // Seen from the side to which the normal points the solid angle is negative.
+        let side = -perturbed_side_of_plane(at(q), block.corners.each_ref().map(at));
+        parts[k] = f64::from(side) * parts[k].abs().max(f64::MIN_POSITIVE);
+    }
+    f64x4::from(parts)
 }
 
 /// [`super::edge_gradient`] of four edges, times 4π, given their ends relative to the query.
@@ -75,20 +150,6 @@ fn add_edge(sum: &mut Lanes, [a, b]: [&Lanes; 2], [la, lb]: [f64x4; 2], along: &
     }
 }
 
-/// Denominator and numerator of the tangent of half the solid angles of four triangles, and a size to which the rounding
-/// error of the numerator is relative.
-#[inline(always)]
-pub(super) fn angle([a, b, c]: &[Lanes; 3], q: &Lanes) -> (f64x4, f64x4, f64x4) {
-    // The normal from edges, not from corners relative to the query: that stays accurate far away.
-    let (u, v) = (minus(b, a), minus(c, a));
-    let normal = cross(&u, &v);
-    let (a, b, c) = (minus(a, q), minus(b, q), minus(c, q));
-    let numerator = dot(&a, &normal);
-    let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
-    let denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
-    (denominator, numerator, la * dot(&u, &u).sqrt() * dot(&v, &v).sqrt())
-}
-
 fn minus(a: &Lanes, b: &Lanes) -> Lanes {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
@@ -99,81 +160,4 @@ fn dot(a: &Lanes, b: &Lanes) -> f64x4 {
 
 fn cross(a: &Lanes, b: &Lanes) -> Lanes {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// A sum of half solid angles, kept as the product of complex numbers with those arguments, and the number of times
-/// the product went around: one arctangent for a whole query instead of one for each triangle.
-pub struct AngleProduct {
-    real: f64x4,
-    imaginary: f64x4,
-    wraps: f64x4,
-}
-
-impl AngleProduct {
-    pub(super) const ONE: AngleProduct =
-        AngleProduct { real: f64x4::ONE, imaginary: f64x4::ZERO, wraps: f64x4::ZERO };
-
-    /// Multiplies by `real + i·imaginary`, four factors at once. A factor without an imaginary part counts as 1: its
-    /// triangle holds the query in its plane.
-    #[inline(always)]
-    pub(super) fn multiply(&mut self, real: f64x4, imaginary: f64x4) {
-        let flat = imaginary.simd_eq(f64x4::ZERO);
-        let real = flat.bitselect(f64x4::ONE, real);
-        let new_real = self.real * real - self.imaginary * imaginary;
-        let new_imaginary = self.real * imaginary + self.imaginary * real;
-        let zero = f64x4::ZERO;
-        let was_upper = self.imaginary.simd_ge(zero);
-        let is_upper = new_imaginary.simd_ge(zero);
-        // Upper half-plane turned by a positive angle into the lower one: past π, and its mirror.
-        let up = !flat & was_upper & imaginary.simd_ge(zero) & !is_upper;
-        let down = !was_upper & imaginary.simd_lt(zero) & is_upper;
-        self.wraps += (up & f64x4::ONE) - (down & f64x4::ONE);
-        let scale = reciprocal_power_of_two(new_real.abs() + new_imaginary.abs());
-        self.real = new_real * scale;
-        self.imaginary = new_imaginary * scale;
-    }
-
-    /// The winding number: the sum of half solid angles over 2π.
-    pub(super) fn turns(self) -> f64 {
-        let [real, imaginary, wraps] = [self.real, self.imaginary, self.wraps].map(|v| v.to_array());
-        let mut sum = AngleProduct1 { real: real[0], imaginary: imaginary[0], wraps: wraps[0] };
-        for k in 1..WIDTH {
-            sum.multiply(AngleProduct1 { real: real[k], imaginary: imaginary[k], wraps: wraps[k] });
-        }
-        // −0 would turn an angle of π into −π.
-        libm::atan2(sum.imaginary + 0.0, sum.real) / TAU + sum.wraps
-    }
-}
-
-/// One lane of an [`AngleProduct`].
-struct AngleProduct1 {
-    real: f64,
-    imaginary: f64,
-    wraps: f64,
-}
-
-impl AngleProduct1 {
-    fn multiply(&mut self, other: AngleProduct1) {
-        let real = self.real * other.real - self.imaginary * other.imaginary;
-        let imaginary = self.real * other.imaginary + self.imaginary * other.real;
-        let (was, with, is) = (self.imaginary >= 0.0, other.imaginary >= 0.0, imaginary >= 0.0);
-        self.wraps += other.wraps;
-        if was && with && !is {
-            self.wraps += 1.0;
-        }
-        if !was && !with && is {
-            self.wraps -= 1.0;
-        }
-        self.real = real;
-        self.imaginary = imaginary;
-    }
-}
-
-/// 2⁻ᵉ for a positive normal number with exponent e: it keeps products from overflowing and rounds nothing.
-#[inline(always)]
-fn reciprocal_power_of_two(x: f64x4) -> f64x4 {
-    const EXPONENT: i64 = 0x7ff0_0000_0000_0000;
-    const TWICE_BIAS: i64 = 0x7fe0_0000_0000_0000;
-    let bits: i64x4 = wide::bytemuck::cast(x);
-    wide::bytemuck::cast(i64x4::splat(TWICE_BIAS) - (bits & i64x4::splat(EXPONENT)))
 }

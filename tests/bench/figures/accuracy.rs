@@ -4,7 +4,7 @@ use crate::models::Model;
 use crate::plot::{Chart, Mark, Series};
 use fast_winding::data::{Shape, Silent};
 use fast_winding::treecode::{Tree, TreeConfig};
-use fast_winding::winding::{Accuracy, ExactHierarchy, FieldConfig, Order, WindingField};
+use fast_winding::winding::{Accuracy, ExactHierarchy, FieldConfig, Order, Triangles, WindingField};
 use std::path::Path;
 
 const VOXELS: usize = 100;
@@ -78,7 +78,7 @@ fn voxels(model: &Model) {
     let (hierarchy_build, hierarchy) = median(|| ExactHierarchy::new(&model.soup));
     let of_paper = Accuracy::of_paper(&shape);
     let tree_config = TreeConfig { leaf_size: FieldConfig::default().leaf_size };
-    let (tree_build, _) = median(|| Tree::build(&*model.soup, &tree_config));
+    let (tree_build, _) = median(|| Tree::build(&Triangles::new(model.soup.clone()), &tree_config));
     field.evaluate(&points[..1], of_paper, &Silent).expect(done); // builds its tree when first asked
     let ours = median(|| field.evaluate_lattice(&lattice, Accuracy::default(), &Silent).expect(done)).0;
     let paper = median(|| field.evaluate_lattice(&lattice, of_paper, &Silent).expect(done)).0;

@@ -4,7 +4,7 @@ use crate::models::Model;
 use crate::plot::{Chart, Mark, Series};
 use fast_winding::data::{Shape, Silent};
 use fast_winding::treecode::{Tree, TreeConfig};
-use fast_winding::winding::{Accuracy, ExactHierarchy, FieldConfig, WindingField};
+use fast_winding::winding::{Accuracy, ExactHierarchy, FieldConfig, Triangles, WindingField};
 use std::path::Path;
 
 const SIDE: usize = 50;
@@ -29,7 +29,7 @@ fn measure(model: &Model) -> Row {
     let shape = Shape::from(model.soup.clone());
     let (build, field) = median(|| WindingField::new(shape.clone(), FieldConfig::default()));
     let tree_config = TreeConfig { leaf_size: FieldConfig::default().leaf_size };
-    let (tree_build, _) = median(|| Tree::build(&*model.soup, &tree_config));
+    let (tree_build, _) = median(|| Tree::build(&Triangles::new(model.soup.clone()), &tree_config));
     let (hierarchy_build, hierarchy) = median(|| ExactHierarchy::new(&model.soup));
     let lattice = lattice(&model.soup, SIDE);
     let points = points(&lattice);
