@@ -9,8 +9,7 @@ import { StepFailed, run, say } from './run.mjs';
 import { buildVariant, wasmOutput } from './wasm.mjs';
 
 /** Most KiB that a build may weigh after brotli. */
-// The design asks for 250 and 300. The exact field missed the first: 280, of which 48 came with it. To be brought back.
-const BUDGETS = { single: 285, threads: 300 };
+const BUDGETS = { single: 250, threads: 300 };
 const VARIANTS = ['threads', 'single'];
 const GLUE = ['fast_winding.js', 'fast_winding.d.ts', 'fast_winding_bg.wasm', 'fast_winding_bg.wasm.d.ts', 'memory.js', 'memory.d.ts'];
 

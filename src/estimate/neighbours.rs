@@ -23,7 +23,7 @@ impl Neighbourhoods {
                 .filter(|near| near.1 != i as u32)
                 .collect();
             // Equal distances in a fixed order, whatever the library's.
-            found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             found.into_iter().take(count).map(|near| near.1).collect()
         };
         fill_in_blocks(&mut lists, neighbours, "neighbours", monitor)?;

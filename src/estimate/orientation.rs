@@ -1,7 +1,7 @@
 //! Consistent orientation of normals by propagation along a minimum spanning tree of the neighbour graph, whose edges
 //! cost 1 − |nᵢ · nⱼ| (Hoppe et al. 1992, *Surface reconstruction from unorganized points*, section 3.3).
 use super::neighbours::Neighbourhoods;
-use crate::data::{Cancelled, Monitor};
+use crate::data::{Cancelled, Monitor, sorted_pairs};
 use crate::math::Vec3;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -19,7 +19,8 @@ pub(super) fn propagate(
     let mut reached = vec![false; points.len()];
     let mut done = 0;
     let mut from_the_top: Vec<u32> = (0..points.len() as u32).collect();
-    from_the_top.sort_by(|&a, &b| points[b as usize].z.total_cmp(&points[a as usize].z).then(a.cmp(&b)));
+    from_the_top
+        .sort_unstable_by(|&a, &b| points[b as usize].z.total_cmp(&points[a as usize].z).then(a.cmp(&b)));
     for seed in from_the_top {
         if reached[seed as usize] {
             continue;
@@ -82,11 +83,9 @@ impl Graph {
 
 /// The neighbour graph with every edge both ways.
 fn symmetric_graph(count: usize, neighbourhoods: &Neighbourhoods) -> Graph {
-    let mut edges: Vec<(u32, u32)> = (0..count as u32)
-        .flat_map(|i| neighbourhoods.of(i as usize).iter().flat_map(move |&j| [(i, j), (j, i)]))
-        .collect();
-    edges.sort_unstable();
+    let both_ways = |i: u32| neighbourhoods.of(i as usize).iter().flat_map(move |&j| [[i, j], [j, i]]);
+    let mut edges = sorted_pairs((0..count as u32).flat_map(both_ways));
     edges.dedup();
-    let starts = (0..=count as u32).map(|i| edges.partition_point(|e| e.0 < i)).collect();
-    Graph { starts, targets: edges.into_iter().map(|e| e.1).collect() }
+    let starts = (0..=count as u32).map(|i| edges.partition_point(|e| e[0] < i)).collect();
+    Graph { starts, targets: edges.into_iter().map(|e| e[1]).collect() }
 }

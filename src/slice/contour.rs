@@ -1,6 +1,6 @@
 use super::{SliceConfig, Span, nesting};
 use crate::bvh::Bvh;
-use crate::data::{Lattice, LatticeError, Layer, Shape, TriangleSoup, map_items};
+use crate::data::{Lattice, LatticeError, Layer, Shape, TriangleSoup, map_items, sorted_pairs};
 use crate::levelset::{PlaneGrid, trace_contours};
 use crate::math::{Aabb, Vec2, Vec3};
 use crate::winding::{Scratch, WindingField};
@@ -49,8 +49,11 @@ impl<'a> Slicer<'a> {
         let mut inside = |p: Vec2| self.field.is_above(p.extend(span.sample), 0.5, &mut scratch);
         let mut seeds = self.seeds_of_geometry(span.sample);
         seeds.extend(self.seeds_of_scan(&mut inside));
-        seeds.sort_unstable();
+        // Biased, so that negative numbers come first.
+        const BIAS: u32 = 1 << 31;
+        let mut seeds = sorted_pairs(seeds.into_iter().map(|cell| cell.map(|c| c as u32 ^ BIAS)));
         seeds.dedup();
+        let seeds = seeds.into_iter().map(|cell| cell.map(|c| (c ^ BIAS) as i32));
         let rings = trace_contours(&self.grid, seeds, inside);
         let polygons = nesting::polygons(rings);
         Layer { z_bottom: span.bottom, z_top: span.top, z_sample: span.sample, polygons }

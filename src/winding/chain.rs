@@ -4,7 +4,7 @@
 //! Linear in the number of triangles: vertices and edges are distributed over buckets that fit in a cache, never kept in
 //! one large hash map.
 use super::buckets::{Buckets, counting_sort};
-use crate::data::{TriangleSoup, map_tasks};
+use crate::data::{TriangleSoup, map_tasks, sorted_pairs};
 use crate::math::Vec3;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -92,16 +92,13 @@ fn net_of_bucket(edges: &Buckets<(u32, u32, bool)>, bucket: usize) -> Vec<[u32; 
 /// The chain as simple cycles: closed walks that visit no vertex twice. Cut off a walk whenever it comes back to one of
 /// its vertices; as many edges of a net chain leave a vertex as enter it, so a walk never gets stuck.
 pub fn cycles(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
-    // By start, then by end.
-    let mut outgoing: Vec<u64> = edges.iter().map(|e| u64::from(e[0]) << 32 | u64::from(e[1])).collect();
-    outgoing.sort_unstable();
-    let start = |edge: &u64| (edge >> 32) as u32;
-    let mut vertices: Vec<u32> = outgoing.iter().map(start).collect();
+    let outgoing = sorted_pairs(edges.iter().copied());
+    let mut vertices: Vec<u32> = outgoing.iter().map(|e| e[0]).collect();
     vertices.dedup();
     let local = |v: u32| vertices.binary_search(&v).expect("every vertex of a cycle is left");
-    let ends: Vec<u32> = outgoing.iter().map(|edge| local(*edge as u32) as u32).collect();
+    let ends: Vec<u32> = outgoing.iter().map(|e| local(e[1]) as u32).collect();
     let mut next: Vec<usize> =
-        vertices.iter().map(|v| outgoing.partition_point(|e| start(e) < *v)).chain([edges.len()]).collect();
+        vertices.iter().map(|v| outgoing.partition_point(|e| e[0] < *v)).chain([edges.len()]).collect();
     let last = next[1..].to_vec();
 
     const OFF: usize = usize::MAX;

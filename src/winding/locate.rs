@@ -100,9 +100,10 @@ impl Locator {
     pub fn new(facets: Facets, bounds: Aabb) -> Locator {
         let longest = bounds.size().max_element();
         let origin = bounds.min;
-        let budget = (CELL_BYTES_PER_FACET * facets.len()) as f64;
-        let side = 1 << (budget.cbrt().max(1.0).log2().floor() as usize);
-        let side = side.clamp(*SIDES.start(), *SIDES.end());
+        let mut side = *SIDES.start();
+        while side < *SIDES.end() && (2 * side).pow(3) <= CELL_BYTES_PER_FACET * facets.len() {
+            side *= 2;
+        }
         let size = bounds.size().max(Vec3::splat(longest.max(f64::MIN_POSITIVE) * 1e-3));
         let mut locator = Locator {
             origin,

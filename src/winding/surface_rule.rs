@@ -108,7 +108,7 @@ pub fn touches_inside(q: Vec3, touching: &[[Vec3; 3]], principal: f64, threshold
 fn directions_within(fan: &Fan, fans: &[Fan]) -> Vec<Vec3> {
     let Some([first, _]) = fan.sectors.first() else { return vec![] };
     let (x, y) = (*first, fan.normal.cross(*first));
-    let angle = |d: Vec3| libm::atan2(d.dot(y), d.dot(x)).rem_euclid(TAU);
+    let angle = |d: Vec3| libm::atan2(d.dot(y), d.dot(x));
     let cuts: Vec<Vec3> = (fans.iter())
         .map(|other| fan.normal.cross(other.normal))
         .filter(|line| line.length() > FLAT)
@@ -116,11 +116,14 @@ fn directions_within(fan: &Fan, fans: &[Fan]) -> Vec<Vec3> {
         .collect();
     let mut directions = Vec::new();
     for [u, v] in &fan.sectors {
-        let turn = |d: &Vec3| (angle(*d) - angle(*u)).rem_euclid(TAU);
-        let mut rays: Vec<(f64, Vec3)> = cuts.iter().map(|c| (turn(c), *c)).collect();
-        rays.retain(|(turned, _)| *turned < turn(v));
-        rays.extend([(0.0, *u), (turn(v), *v)]);
-        rays.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let turn = |d: &Vec3| {
+            let turned = angle(*d) - angle(*u);
+            if turned < 0.0 { turned + TAU } else { turned }
+        };
+        let mut rays = vec![(0.0, *u), (turn(v), *v)];
+        for cut in cuts.iter().map(|c| (turn(c), *c)).filter(|cut| cut.0 < turn(v)) {
+            rays.insert(rays.partition_point(|ray| ray.0 <= cut.0), cut);
+        }
         let between = rays.windows(2).filter(|pair| pair[1].0 - pair[0].0 > FLAT);
         directions.extend(between.map(|pair| bisector(pair[0].1, pair[1].1, fan.normal)));
     }
