@@ -72,10 +72,19 @@ fn sum_directly(points: &[Vec3], shape: &Shape) -> Vec<f64> {
     points.par_iter().map(at).collect()
 }
 
+/// The field; where scattered points are asked for, with what they need.
+fn build(options: &Options, shape: &Shape) -> WindingField {
+    let field = WindingField::new(shape.clone(), FieldConfig::default());
+    if options.text("points").is_some() {
+        field.prepare_points();
+    }
+    field
+}
+
 /// Builds the field and asks it, again and again; prints the medians. Returns the last answers.
 fn measure<T>(options: &Options, shape: &Shape, ask: impl Fn(&WindingField) -> T) -> T {
     let before = Memory::reset();
-    let mut field = WindingField::new(shape.clone(), FieldConfig::default());
+    let mut field = build(options, shape);
     let after = Memory::now();
     // Once unmeasured, unless that alone is as long as is allowed: then the first run counts.
     let (first, mut answers) = timed(|| ask(&field));
@@ -86,7 +95,7 @@ fn measure<T>(options: &Options, shape: &Shape, ask: impl Fn(&WindingField) -> T
     {
         // The former field goes before the clock starts: nobody else pays for it either.
         drop(field);
-        let (build, built) = timed(|| WindingField::new(shape.clone(), FieldConfig::default()));
+        let (build, built) = timed(|| build(options, shape));
         field = built;
         let evaluation = if first > options.limit {
             first
