@@ -1,10 +1,13 @@
 //! Vectors, boxes, triangles, exact predicates and small matrices: no knowledge of files, trees or fields.
 mod aabb;
+mod chebyshev;
 mod plane;
 mod predicates;
 mod triangle;
+mod widest;
 
 pub use aabb::Aabb;
+pub use chebyshev::{Nodes, bernstein, lebesgue};
 pub use glam::{DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
 pub use plane::{PlaneFit, fit_plane};
 pub use predicates::{
@@ -12,3 +15,4 @@ pub use predicates::{
     touches,
 };
 pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};
+pub use widest::widest;

@@ -2,7 +2,7 @@
 //! any ray, less that of C; and for which components that is worth it.
 use super::chain::{components, cycles, net_edges, weld};
 use crate::data::TriangleSoup;
-use crate::math::Vec3;
+use crate::math::{Vec3, covers, orient_yz, perturbed_side_of_plane};
 use std::collections::BTreeMap;
 
 /// A component whose closure has more than this share of its triangles is *loose*: summing its own triangles costs less
@@ -108,7 +108,7 @@ impl Closure {
 
 /// Triangulates the polygon first … last of a cycle by halves: most triangles are small and near the rim. Their boundary
 /// runs along the cycle.
-fn cap(cycle: &[Vec3], first: usize, last: usize, caps: &mut Vec<[Vec3; 3]>) {
+pub(super) fn cap(cycle: &[Vec3], first: usize, last: usize, caps: &mut Vec<[Vec3; 3]>) {
     if last - first < 2 {
         return;
     }
@@ -116,6 +116,19 @@ fn cap(cycle: &[Vec3], first: usize, last: usize, caps: &mut Vec<[Vec3; 3]>) {
     caps.push([cycle[first], cycle[middle], cycle[last]]);
     cap(cycle, first, middle, caps);
     cap(cycle, middle, last, caps);
+}
+
+/// Crossings by the ray from `q` along −x of caps, turned around so that they close the soup.
+pub fn crossings_of_caps(caps: &[[Vec3; 3]], q: Vec3) -> i32 {
+    let one = |cap: &[Vec3; 3]| {
+        let corners = [cap[0], cap[2], cap[1]];
+        if !covers(q, corners) {
+            return 0;
+        }
+        let facing = orient_yz(corners[0], corners[1], corners[2]);
+        if perturbed_side_of_plane(q, corners) == facing { -facing } else { 0 }
+    };
+    caps.iter().map(one).sum()
 }
 
 #[cfg(test)]

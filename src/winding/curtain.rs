@@ -42,6 +42,10 @@ impl Curtain {
         Curtain { cycles, edges }
     }
 
+    pub fn cycles(&self) -> &[Vec<Vec3>] {
+        &self.cycles
+    }
+
     /// Number of boundary edges.
     pub fn edges(&self) -> usize {
         self.edges
@@ -64,21 +68,31 @@ impl Curtain {
     pub fn fractions(&self, queries: &[Vec3; LANES]) -> [f64; LANES] {
         let lanes = [0, 1, 2].map(|axis| f64x4::from(queries.map(|q| q[axis])));
         let mut product = AngleProduct::ONE;
-        for cycle in &self.cycles {
-            let mut from = cycle[cycle.len() - 1];
-            let mut from_end = end(from, &lanes);
-            for &to in cycle {
-                let to_end = end(to, &lanes);
-                multiply(&mut product, &from_end, &to_end, [from, to], queries);
-                (from, from_end) = (to, to_end);
-            }
-        }
+        self.cycles.iter().for_each(|cycle| multiply_cycle(&mut product, cycle, queries, &lanes));
         product.turns_of_lanes()
     }
 
     /// [`Curtain::fractions`] at one query.
     pub fn fraction(&self, q: Vec3) -> f64 {
         if self.edges == 0 { 0.0 } else { self.fractions(&[q; LANES])[0] }
+    }
+}
+
+/// [`Curtain::fractions`] of a single cycle.
+pub fn fractions_of(cycle: &[Vec3], queries: &[Vec3; LANES]) -> [f64; LANES] {
+    let lanes = [0, 1, 2].map(|axis| f64x4::from(queries.map(|q| q[axis])));
+    let mut product = AngleProduct::ONE;
+    multiply_cycle(&mut product, cycle, queries, &lanes);
+    product.turns_of_lanes()
+}
+
+fn multiply_cycle(product: &mut AngleProduct, cycle: &[Vec3], queries: &[Vec3; LANES], lanes: &[f64x4; 3]) {
+    let mut from = cycle[cycle.len() - 1];
+    let mut from_end = end(from, lanes);
+    for &to in cycle {
+        let to_end = end(to, lanes);
+        multiply(product, &from_end, &to_end, [from, to], queries);
+        (from, from_end) = (to, to_end);
     }
 }
 

@@ -267,9 +267,12 @@ impl WindingField {
         accuracy: Accuracy,
         monitor: &dyn Monitor,
     ) -> Result<Grid<f64>, FieldError> {
-        if let (Engine::Soup(soup), Accuracy::Tolerance(_)) = (&self.engine, accuracy) {
+        if let (Engine::Soup(soup), Accuracy::Tolerance(tolerance)) = (&self.engine, accuracy) {
             let by = soup.fraction_by(self.expansion_for(accuracy));
-            return Ok(Grid { lattice: *lattice, values: soup.lattice_values(lattice, by, monitor)? });
+            return Ok(Grid {
+                lattice: *lattice,
+                values: soup.lattice_values(lattice, tolerance, by, monitor)?,
+            });
         }
         if matches!(self.engine, Engine::Soup(_)) {
             self.of_paper();

@@ -1,42 +1,60 @@
 //! The field of a soup on a lattice: crossings slab by slab, the fraction where it matters.
-use super::curtain::LANES;
+use super::boundary::Need;
 use super::field::FieldError;
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{FractionBy, SoupField, TIE};
-use crate::data::{Cancelled, Lattice, Monitor, for_each_lattice_block, map_items, map_parts, zeroed};
+use crate::data::{
+    Cancelled, Lattice, Monitor, for_each_lattice_block, map_items, map_parts, map_tasks, zeroed,
+};
 use crate::math::Vec3;
 use crate::treecode::Scratch;
+use std::ops::Range;
 
+/// Planes that are classified together: slabs and blocks of them, a whole number of each.
+const GROUP_PLANES: usize = 32;
 /// Slabs between two reports to the monitor.
 const SLABS_PER_REPORT: usize = 8;
-/// Samples along x and y of the blocks with which subdivision begins.
+/// Most samples along each axis of a block of fractions.
 const TOP: usize = 32;
-/// Blocks of up to this many samples are not divided further, but summed.
-const FEW_SAMPLES: usize = 8;
+const BLOCKS_PER_REPORT: usize = 32;
+/// How far fractions may be off where they are not needed exactly: little enough that few samples need more.
+const CLASSIFICATION_ERROR: f64 = 0.02;
+/// Crossings beyond this are not told apart.
+const MOST_CROSSINGS: f64 = 32_000.0;
 
 impl SoupField {
-    /// Winding numbers at every sample.
+    /// Winding numbers at every sample, to a tolerance.
     pub(super) fn lattice_values(
         &self,
         lattice: &Lattice,
+        tolerance: f64,
         by: FractionBy,
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, FieldError> {
         let mut values = zeroed::<f64>(lattice.len())?;
         let stage = "winding numbers";
-        let end = if by == FractionBy::Edges { self.soup.len() } else { self.facets().len() };
+        let without_caps = by == FractionBy::Edges && !self.closure.loose.is_empty();
+        let end = if without_caps { self.soup.len() } else { self.facets().len() };
         let scan = Scan::new(self.facets(), 0..end, lattice);
         let fill = |slab: usize, counted: &Slab, values: &mut [f64]| {
             values.iter_mut().zip(&counted.crossings).for_each(|(value, n)| *value = f64::from(*n));
             self.on_surface(lattice, slab, counted)
         };
-        let on_surface = for_each_slab(&scan, lattice, &mut values, SLAB_PLANES, fill, stage, monitor)?;
-        if !self.is_closed() {
+        let planes = 0..lattice.counts[2];
+        let on_surface =
+            for_each_slab(&scan, planes.clone(), &mut values, SLAB_PLANES, fill, stage, monitor)?;
+        if !self.closure.loose.is_empty() {
             let fractions = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
                 self.fractions(points, by, results, scratch);
             };
             let store = |index: usize, fraction: f64| values[index] += fraction;
             for_each_lattice_block(lattice, fractions, store, stage, monitor)?;
+        } else if !self.is_closed() {
+            let add = |first: usize, row: &[f64]| {
+                values[first..first + row.len()].iter_mut().zip(row).for_each(|(value, add)| *value += add);
+            };
+            let need = Need::Value { tolerance };
+            self.for_each_boundary_row(lattice, planes, need, |_, row| row, add, (stage, monitor))?;
         }
         let principal =
             map_items(on_surface.len(), |k| self.principal_at(lattice.point(lattice.sample(on_surface[k]))));
@@ -50,6 +68,43 @@ impl SoupField {
         counted.on_surface.iter().map(|place| first + *place as usize).collect()
     }
 
+    /// The fractions of the caps at the samples of some planes: those of each block as `of_block(its first
+    /// sample, values)` changes them, in parallel; then row by row to `store(place of the row's first sample, values)`.
+    fn for_each_boundary_row<T: Send>(
+        &self,
+        lattice: &Lattice,
+        planes: Range<usize>,
+        need: Need,
+        of_block: impl Fn([[usize; 3]; 2], Vec<f64>) -> Vec<T> + Sync,
+        mut store: impl FnMut(usize, &[T]),
+        (stage, monitor): (&str, &dyn Monitor),
+    ) -> Result<(), Cancelled> {
+        let [nx, ny, _] = lattice.counts;
+        let sizes = [nx, ny, planes.len()];
+        let blocks = sizes.map(|size| size.div_ceil(TOP));
+        let total: usize = blocks.iter().product();
+        for first in (0..total).step_by(BLOCKS_PER_REPORT) {
+            monitor.report(first as f64 / total as f64, stage)?;
+            let results = map_tasks(BLOCKS_PER_REPORT.min(total - first), |task| {
+                let block = first + task;
+                let at = [block % blocks[0], block / blocks[0] % blocks[1], block / (blocks[0] * blocks[1])];
+                let [low, high] = [0, 1].map(|end| {
+                    let mut corner: [usize; 3] =
+                        std::array::from_fn(|k| sizes[k] * (at[k] + end) / blocks[k]);
+                    corner[2] += planes.start;
+                    corner
+                });
+                let values = self.boundary.block(&self.closure.caps, lattice, [low, high], need);
+                ([low, high], of_block([low, high], values))
+            });
+            for ([low, high], values) in results {
+                let rows = (low[2]..high[2]).flat_map(|k| (low[1]..high[1]).map(move |j| [low[0], j, k]));
+                rows.zip(values.chunks(high[0] - low[0])).for_each(|(at, row)| store(lattice.index(at), row));
+            }
+        }
+        Ok(())
+    }
+
     /// One bit for each sample, set where w ≥ `threshold`; proven, of a soup without loose components.
     pub(super) fn lattice_bits(
         &self,
@@ -58,24 +113,31 @@ impl SoupField {
         monitor: &dyn Monitor,
     ) -> Result<Vec<u8>, FieldError> {
         let mut bits = zeroed::<u8>(lattice.len().div_ceil(8))?;
-        let facets = self.facets();
-        let surface = Scan::new(facets, 0..facets.soup.len(), lattice);
-        let caps = Scan::new(facets, facets.soup.len()..facets.len(), lattice);
-        let fill = |slab: usize, counted: &Slab, bits: &mut [u8]| {
-            let inside = self.slab_inside(lattice, &caps, slab, counted, threshold);
-            for (byte, eight) in bits.iter_mut().zip(inside.chunks(8)) {
-                *byte = eight.iter().rev().fold(0, |byte, inside| byte << 1 | u8::from(*inside));
-            }
-            let touching = self.on_surface(lattice, slab, counted);
-            touching
-                .into_iter()
-                .map(|index| {
+        let stage = "inside test";
+        let scan = Scan::new(self.facets(), 0..self.facets().len(), lattice);
+        let plane = lattice.counts[0] * lattice.counts[1];
+        let mut touching = Vec::new();
+        let group = GROUP_PLANES;
+        for (start, bits) in
+            (0..lattice.counts[2]).step_by(group).zip(bits.chunks_mut((plane * group / 8).max(1)))
+        {
+            let planes = start..(start + group).min(lattice.counts[2]);
+            let least = self.least_crossings(lattice, planes.clone(), threshold, (stage, monitor))?;
+            let fill = |slab: usize, counted: &Slab, bits: &mut [u8]| {
+                let least = &least[slab * SLAB_PLANES * plane - start * plane..];
+                let eights = counted.crossings.chunks(8).zip(least.chunks(8));
+                for (byte, (crossings, least)) in bits.iter_mut().zip(eights) {
+                    let is_inside = crossings.iter().zip(least).map(|(n, least)| *n >= i32::from(*least));
+                    *byte = is_inside.rev().fold(0, |byte, inside| byte << 1 | u8::from(inside));
+                }
+                let decide = |index| {
                     let q = lattice.point(lattice.sample(index));
                     (index, self.is_inside_on_surface(q, threshold))
-                })
-                .collect()
-        };
-        let touching = for_each_slab(&surface, lattice, &mut bits, 1, fill, "inside test", monitor)?;
+                };
+                self.on_surface(lattice, slab, counted).into_iter().map(decide).collect()
+            };
+            touching.extend(for_each_slab(&scan, planes, bits, 1, fill, stage, monitor)?);
+        }
         for (index, inside) in touching {
             let bit = 1 << (index % 8);
             bits[index / 8] = if inside { bits[index / 8] | bit } else { bits[index / 8] & !bit };
@@ -83,40 +145,48 @@ impl SoupField {
         Ok(bits)
     }
 
-    fn slab_inside(
+    /// For each sample of some planes the least number of crossings, of surface and caps, that is inside: the fraction's
+    /// bound decides, or an exact sum.
+    fn least_crossings(
         &self,
         lattice: &Lattice,
-        caps: &Scan,
-        slab: usize,
-        counted: &Slab,
+        planes: Range<usize>,
         threshold: f64,
-    ) -> Vec<bool> {
+        report: (&str, &dyn Monitor),
+    ) -> Result<Vec<i16>, FieldError> {
+        let plane = lattice.counts[0] * lattice.counts[1];
+        let least =
+            |fraction: f64| (threshold - fraction).ceil().clamp(-MOST_CROSSINGS, MOST_CROSSINGS) as i16;
+        let mut result = zeroed::<i16>(plane * planes.len())?;
         if self.is_closed() {
-            let least = threshold.ceil().clamp(-1e9, 1e9) as i32;
-            return counted.crossings.iter().map(|n| *n >= least).collect();
+            result.fill(least(0.0));
+            return Ok(result);
         }
-        let mut of_caps = Slab::default();
-        caps.count(slab, &mut of_caps);
-        let planes = caps.planes(slab);
-        let mut settling = Settling {
-            field: self,
-            lattice,
-            first_plane: planes.start,
-            crossings: &counted.crossings,
-            of_caps: &of_caps.crossings,
-            threshold,
-            inside: vec![false; counted.crossings.len()],
-            refined: 0,
-        };
-        let [nx, ny, _] = lattice.counts;
-        for y in (0..ny).step_by(TOP) {
-            for x in (0..nx).step_by(TOP) {
-                let high = [nx.min(x + TOP), ny.min(y + TOP), planes.end];
-                settling.settle([x, y, planes.start], high);
+        let of_block = |[low, high]: [[usize; 3]; 2], fractions: Vec<f64>| {
+            let rows = (low[2]..high[2]).flat_map(|k| (low[1]..high[1]).map(move |j| [low[0], j, k]));
+            let mut refined = 0;
+            let mut result = Vec::with_capacity(fractions.len());
+            for (at, row) in rows.zip(fractions.chunks(high[0] - low[0])) {
+                for (i, fraction) in row.iter().enumerate() {
+                    let decided = least(fraction - CLASSIFICATION_ERROR);
+                    if decided == least(fraction + CLASSIFICATION_ERROR) {
+                        result.push(decided);
+                        continue;
+                    }
+                    refined += 1;
+                    let q = lattice.point([at[0] + i, at[1], at[2]]);
+                    let fraction = self.curtain.fraction(q) - f64::from(self.cap_crossings(q));
+                    result.push(least(fraction + TIE));
+                }
             }
-        }
-        self.count_refined(settling.refined);
-        settling.inside
+            self.count_refined(refined);
+            result
+        };
+        let first = planes.start * plane;
+        let store = |place: usize, row: &[i16]| result[place - first..][..row.len()].copy_from_slice(row);
+        let need = Need::Side { threshold, error: CLASSIFICATION_ERROR };
+        self.for_each_boundary_row(lattice, planes, need, of_block, store, report)?;
+        Ok(result)
     }
 }
 
@@ -124,17 +194,17 @@ impl SoupField {
 /// each sample of a plane, to `fill`; gives what `fill` has found, in order.
 fn for_each_slab<T: Send, R: Send>(
     scan: &Scan,
-    lattice: &Lattice,
+    planes: Range<usize>,
     output: &mut [T],
     per_plane: usize,
     fill: impl Fn(usize, &Slab, &mut [T]) -> Vec<R> + Sync,
     stage: &str,
     monitor: &dyn Monitor,
 ) -> Result<Vec<R>, Cancelled> {
-    let part = (lattice.counts[0] * lattice.counts[1] * per_plane).max(1);
+    let part = (scan.samples_of_plane() * per_plane).max(1);
     let mut found = Vec::new();
     for (run, parts) in output.chunks_mut(SLABS_PER_REPORT * part).enumerate() {
-        let first = run * SLABS_PER_REPORT;
+        let first = planes.start / SLAB_PLANES + run * SLABS_PER_REPORT;
         monitor.report(first as f64 / scan.slabs() as f64, stage)?;
         let of_run = map_parts(parts, part, |slab, part| {
             let mut counted = Slab::default();
@@ -145,77 +215,4 @@ fn for_each_slab<T: Send, R: Send>(
     }
     monitor.report(1.0, stage)?;
     Ok(found)
-}
-
-/// Subdivision of a slab until the fraction no longer matters.
-struct Settling<'a> {
-    field: &'a SoupField,
-    lattice: &'a Lattice,
-    first_plane: usize,
-    /// Of the surface and of the caps.
-    crossings: &'a [i32],
-    of_caps: &'a [i32],
-    threshold: f64,
-    inside: Vec<bool>,
-    refined: usize,
-}
-
-impl Settling<'_> {
-    fn place(&self, [x, y, z]: [usize; 3]) -> usize {
-        self.lattice.index([x, y, z - self.first_plane])
-    }
-
-    fn settle(&mut self, low: [usize; 3], high: [usize; 3]) {
-        let counts: [usize; 3] = std::array::from_fn(|k| high[k] - low[k]);
-        if let Some(least) = self.least_crossings(low, counts) {
-            for z in low[2]..high[2] {
-                for y in low[1]..high[1] {
-                    let row = self.place([low[0], y, z])..self.place([high[0], y, z]);
-                    for place in row {
-                        self.inside[place] = self.crossings[place] + self.of_caps[place] >= least;
-                    }
-                }
-            }
-        } else if counts.iter().product::<usize>() <= FEW_SAMPLES {
-            self.sum_singly(low, high);
-        } else {
-            let longest = |k: &usize| self.lattice.spacing[*k] * counts[*k] as f64;
-            let axis = (0..3).filter(|k| counts[*k] > 1).max_by(|a, b| longest(a).total_cmp(&longest(b)));
-            let axis = axis.expect("more than one sample is left");
-            let middle = low[axis] + counts[axis] / 2;
-            let (mut end, mut start) = (high, low);
-            (end[axis], start[axis]) = (middle, middle);
-            self.settle(low, end);
-            self.settle(start, high);
-        }
-    }
-
-    /// The integer part from which on all samples of a block are inside, if there is one.
-    fn least_crossings(&self, low: [usize; 3], counts: [usize; 3]) -> Option<i32> {
-        let middle: [usize; 3] = std::array::from_fn(|k| low[k] + counts[k] / 2);
-        let center = self.lattice.point(middle);
-        let reach = Vec3::from_array(std::array::from_fn(|k| (counts[k] / 2) as f64)) * self.lattice.spacing;
-        // Samples are rounded by far less than that.
-        let radius = reach.length() * (1.0 + 1e-6) + 1e-9 * self.lattice.spacing.max_element();
-        if self.field.balls.variation(center, radius).is_infinite() {
-            return None;
-        }
-        let fraction = self.field.curtain.fraction(center) - f64::from(self.of_caps[self.place(middle)]);
-        self.field.balls.least_crossings(center, radius, fraction, self.threshold)
-    }
-
-    fn sum_singly(&mut self, low: [usize; 3], high: [usize; 3]) {
-        let samples: Vec<[usize; 3]> = (low[2]..high[2])
-            .flat_map(|z| (low[1]..high[1]).flat_map(move |y| (low[0]..high[0]).map(move |x| [x, y, z])))
-            .collect();
-        for four in samples.chunks(LANES) {
-            let queries = std::array::from_fn(|k| self.lattice.point(four[k.min(four.len() - 1)]));
-            let fractions = self.field.curtain.fractions(&queries);
-            for (sample, fraction) in four.iter().zip(fractions) {
-                let place = self.place(*sample);
-                self.inside[place] = f64::from(self.crossings[place]) + fraction >= self.threshold - TIE;
-            }
-        }
-        self.refined += samples.len();
-    }
 }

@@ -4,6 +4,7 @@
 //! (`scan` on lattices, `locate` at scattered points) and a fraction of what closes it (`chain`, `closure`, `curtain`); a
 //! cloud's is the tree of Barill et al. 2018. `hierarchy` and `parity` are the methods that the paper compares itself with.
 mod angle_product;
+mod boundary;
 mod buckets;
 mod certificate;
 mod chain;

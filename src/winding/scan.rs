@@ -89,6 +89,10 @@ impl<'a> Scan<'a> {
         Scan { facets, lattice, slabs, axes }
     }
 
+    pub fn samples_of_plane(&self) -> usize {
+        self.lattice.counts[0] * self.lattice.counts[1]
+    }
+
     /// Number of slabs, of [`SLAB_PLANES`] planes each; the last may have fewer.
     pub fn slabs(&self) -> usize {
         self.lattice.counts[2].div_ceil(SLAB_PLANES)

@@ -1,6 +1,7 @@
 //! The field of a soup: an exact integer by crossings, and a fraction of its closure (see [`super::closure`]).
+use super::boundary::BoundaryField;
 use super::certificate::CapBalls;
-use super::closure::{Closure, ClosureCounts};
+use super::closure::{Closure, ClosureCounts, crossings_of_caps};
 use super::curtain::{Curtain, LANES};
 use super::error_model::{COARSE_BETA, FINE_BETA, SOUP_ERROR};
 use super::exact::winding_of_soup;
@@ -11,7 +12,7 @@ use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
 use crate::bvh::WIDTH;
 use crate::data::{BLOCK, TriangleSoup};
-use crate::math::{Vec3, covers, orient_yz, perturbed_side_of_plane};
+use crate::math::Vec3;
 use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
@@ -33,6 +34,7 @@ pub struct SoupField {
     pub(super) closure: Arc<Closure>,
     pub(super) curtain: Curtain,
     pub(super) balls: CapBalls,
+    pub(super) boundary: BoundaryField,
     /// What the fraction is summed over, and the tree over it if it is worth one.
     sources: Triangles,
     tree: Option<Tree<Triangles>>,
@@ -67,6 +69,7 @@ impl SoupField {
         let sources = Triangles::of_fraction(soup.clone(), closure.clone());
         SoupField {
             balls: CapBalls::new(&closure.caps),
+            boundary: BoundaryField::new(curtain.cycles(), &closure.caps),
             tree: needs_tree.then(|| Tree::build(&sources, config)),
             soup,
             closure,
@@ -85,9 +88,14 @@ impl SoupField {
         self.closure.is_empty()
     }
 
-    /// Whether classifications are proven.
+    /// Whether classifications on lattices are proven.
     pub fn is_certified(&self) -> bool {
-        self.closure.loose.is_empty() && self.curtain.edges() <= CERTIFIED_EDGES
+        self.closure.loose.is_empty()
+    }
+
+    /// Whether those at scattered points are.
+    fn is_certified_anywhere(&self) -> bool {
+        self.is_certified() && self.curtain.edges() <= CERTIFIED_EDGES
     }
 
     /// Points whose classification needed an exact sum, since the field was built.
@@ -101,7 +109,7 @@ impl SoupField {
 
     pub fn bytes(&self) -> usize {
         let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.least.len());
-        self.closure.bytes() + self.tree.as_ref().map_or(0, Tree::bytes) + index
+        self.closure.bytes() + self.boundary.bytes() + self.tree.as_ref().map_or(0, Tree::bytes) + index
     }
 
     pub fn nodes(&self) -> usize {
@@ -163,7 +171,7 @@ impl SoupField {
         }
         // Caps span vertices of the soup.
         let locator = Locator::new(self.facets(), self.soup.bounds());
-        let least = if self.is_closed() || !self.is_certified() {
+        let least = if self.is_closed() || !self.is_certified_anywhere() {
             vec![]
         } else {
             locator.subdivide(UNKNOWN, |center, radius| self.least_in(center, radius))
@@ -205,15 +213,7 @@ impl SoupField {
 
     /// Crossings of the caps by the ray from `q` along −x.
     pub(super) fn cap_crossings(&self, q: Vec3) -> i32 {
-        let one = |cap: &[Vec3; 3]| {
-            let corners = [cap[0], cap[2], cap[1]];
-            if !covers(q, corners) {
-                return 0;
-            }
-            let facing = orient_yz(corners[0], corners[1], corners[2]);
-            if perturbed_side_of_plane(q, corners) == facing { -facing } else { 0 }
-        };
-        self.closure.caps.iter().map(one).sum()
+        crossings_of_caps(&self.closure.caps, q)
     }
 
     /// The winding number at up to [`BLOCK`] points.
@@ -281,7 +281,7 @@ impl SoupField {
                 None => open.push(k),
             }
         }
-        if !self.is_certified() {
+        if !self.is_certified_anywhere() {
             for beta in [COARSE_BETA, FINE_BETA] {
                 let near = |w: f64| (w - threshold).abs() <= SOUP_ERROR.error(beta);
                 let queries: Vec<Vec3> = open.iter().map(|k| points[*k]).collect();
