@@ -122,7 +122,8 @@ pub(super) fn cap(cycle: &[Vec3], first: usize, last: usize, caps: &mut Vec<[Vec
 pub fn crossings_of_caps(caps: &[[Vec3; 3]], q: Vec3) -> i32 {
     let one = |cap: &[Vec3; 3]| {
         let corners = [cap[0], cap[2], cap[1]];
-        if !covers(q, corners) {
+        let [low, high] = [cap[0].min(cap[1]).min(cap[2]), cap[0].max(cap[1]).max(cap[2])];
+        if q.y < low.y || q.y > high.y || q.z < low.z || q.z > high.z || !covers(q, corners) {
             return 0;
         }
         let facing = orient_yz(corners[0], corners[1], corners[2]);

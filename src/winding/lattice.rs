@@ -1,5 +1,6 @@
 //! The field of a soup on a lattice: crossings slab by slab, the fraction where it matters.
 use super::boundary::Need;
+use super::curtain::LANES;
 use super::field::FieldError;
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{FractionBy, SoupField, TIE};
@@ -164,22 +165,24 @@ impl SoupField {
         }
         let of_block = |[low, high]: [[usize; 3]; 2], fractions: Vec<f64>| {
             let rows = (low[2]..high[2]).flat_map(|k| (low[1]..high[1]).map(move |j| [low[0], j, k]));
-            let mut refined = 0;
             let mut result = Vec::with_capacity(fractions.len());
+            let mut open = Vec::new();
             for (at, row) in rows.zip(fractions.chunks(high[0] - low[0])) {
                 for (i, fraction) in row.iter().enumerate() {
                     let decided = least(fraction - CLASSIFICATION_ERROR);
-                    if decided == least(fraction + CLASSIFICATION_ERROR) {
-                        result.push(decided);
-                        continue;
+                    if decided != least(fraction + CLASSIFICATION_ERROR) {
+                        open.push((result.len(), lattice.point([at[0] + i, at[1], at[2]])));
                     }
-                    refined += 1;
-                    let q = lattice.point([at[0] + i, at[1], at[2]]);
-                    let fraction = self.curtain.fraction(q) - f64::from(self.cap_crossings(q));
-                    result.push(least(fraction + TIE));
+                    result.push(decided);
                 }
             }
-            self.count_refined(refined);
+            for four in open.chunks(LANES) {
+                let queries = std::array::from_fn(|k| four[k.min(four.len() - 1)].1);
+                for ((place, q), fraction) in four.iter().zip(self.curtain.fractions(&queries)) {
+                    result[*place] = least(fraction - f64::from(self.cap_crossings(*q)) + TIE);
+                }
+            }
+            self.count_refined(open.len());
             result
         };
         let first = planes.start * plane;

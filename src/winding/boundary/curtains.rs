@@ -7,8 +7,7 @@
 //! of s_a s_b + ζ̄_a ζ_b (as in [`super::super::curtain`], where it may cancel; here its real part is positive). Along a row
 //! of queries parallel to u, ζ̄_a ζ_b is constant: a square root and a complex product are left for each edge and query.
 //!
-//! Arguments are summed as one product. Its argument is the sum up to whole turns, so the sum of the magnitudes of the
-//! loops' winding numbers has to be known to be below 1/2.
+//! Arguments are summed as one product, with the number of times that it went around.
 use crate::math::{Aabb, Vec3, widest};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -59,6 +58,8 @@ pub struct Products {
     counts: [usize; 3],
     real: Vec<f64>,
     imaginary: Vec<f64>,
+    /// How often the product went around.
+    wraps: Vec<f64>,
     row: Row,
 }
 
@@ -78,7 +79,8 @@ impl Products {
     pub fn of(grid: &Grid, unit: f64) -> Products {
         let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
         let len = counts.iter().product();
-        Products { unit, counts, real: vec![1.0; len], imaginary: vec![0.0; len], row: Row::default() }
+        let [ones, zeros] = [vec![1.0; len], vec![0.0; len]];
+        Products { unit, counts, real: ones, imaginary: zeros.clone(), wraps: zeros, row: Row::default() }
     }
 
     /// Multiplies by the factors of a loop that lies in a direction, the sign of an axis, from a region of the grid.
@@ -104,31 +106,31 @@ impl Products {
                 row.set_beside(0, points, v, grid[v][j], unit);
                 row.set_edges(sign);
                 let first = j * strides[v] + k * strides[w] + region[u].start * strides[u];
-                let (real, imaginary) = (&mut self.real[first..], &mut self.imaginary[first..]);
+                let mut product =
+                    [&mut self.real[first..], &mut self.imaginary[first..], &mut self.wraps[first..]];
                 let mut start = 0;
                 while start < row.queries.len() {
                     start += if row.queries.len() - start > 4 {
-                        row.multiply::<8>(start, real, imaginary, strides[u])
+                        row.multiply::<8>(start, &mut product, strides[u])
                     } else {
-                        row.multiply::<4>(start, real, imaginary, strides[u])
+                        row.multiply::<4>(start, &mut product, strides[u])
                     };
                 }
             }
         }
     }
 
-    /// Adds the sums of the arguments, over 2π, and begins anew.
-    pub fn add_to(&mut self, sums: &mut [f64]) {
+    /// Adds the sums of the arguments, over 2π.
+    pub fn add_to(&self, sums: &mut [f64]) {
         const FOUR: usize = 4;
-        let parts = self.real.chunks_mut(FOUR).zip(self.imaginary.chunks_mut(FOUR));
-        for (sums, (real, imaginary)) in sums.chunks_mut(FOUR).zip(parts) {
+        let parts = self.real.chunks(FOUR).zip(self.imaginary.chunks(FOUR)).zip(self.wraps.chunks(FOUR));
+        for (sums, ((real, imaginary), wraps)) in sums.chunks_mut(FOUR).zip(parts) {
             let lanes = |from: &[f64], rest: f64| {
                 f64x4::from(std::array::from_fn(|k| from.get(k).copied().unwrap_or(rest)))
             };
             let angles = lanes(imaginary, 0.0).atan2(lanes(real, 1.0)).to_array();
-            sums.iter_mut().zip(angles).for_each(|(sum, angle)| *sum += angle / TAU);
-            real.fill(1.0);
-            imaginary.fill(0.0);
+            let turns = angles.iter().zip(wraps).map(|(angle, wraps)| angle / TAU + wraps);
+            sums.iter_mut().zip(turns).for_each(|(sum, turns)| *sum += turns);
         }
     }
 }
@@ -161,19 +163,13 @@ impl Row {
 
     /// Multiplies by the factors of all edges at up to `W` queries of the row from one on; gives `W`.
     #[inline(always)]
-    fn multiply<const W: usize>(
-        &self,
-        start: usize,
-        real: &mut [f64],
-        imaginary: &mut [f64],
-        stride: usize,
-    ) -> usize {
+    fn multiply<const W: usize>(&self, start: usize, product: &mut [&mut [f64]; 3], stride: usize) -> usize {
         let queries = &self.queries[start..];
         let last = queries.len().min(W) - 1;
         let place = |lane: usize| (start + lane.min(last)) * stride;
         let q: [f64; W] = std::array::from_fn(|lane| queries[lane.min(last)]);
-        let mut x: [f64; W] = std::array::from_fn(|lane| real[place(lane)]);
-        let mut y: [f64; W] = std::array::from_fn(|lane| imaginary[place(lane)]);
+        let [mut x, mut y, mut wraps]: [[f64; W]; 3] =
+            product.each_ref().map(|part| std::array::from_fn(|lane| part[place(lane)]));
         let count = self.along.len();
         let (along, squared) = (&self.along[..count], &self.squared[..count]);
         let (constants, turns) = (&self.real[..count], &self.imaginary[..count]);
@@ -186,11 +182,20 @@ impl Row {
         let mut from = s(count - 1);
         for k in 0..count {
             let to = s(k);
+            let turn = turns[k];
+            let before = y;
             for lane in 0..W {
                 let factor = from[lane] * to[lane] + constants[k];
                 let (re, im) = (x[lane], y[lane]);
-                x[lane] = re * factor - im * turns[k];
-                y[lane] = re * turns[k] + im * factor;
+                x[lane] = re * factor - im * turn;
+                y[lane] = re * turn + im * factor;
+            }
+            // By less than a quarter of a turn: out of the upper half-plane into the lower one, or back.
+            for lane in 0..W {
+                let (was_upper, is_upper) = (before[lane] >= 0.0, y[lane] >= 0.0);
+                let up = turn >= 0.0;
+                wraps[lane] += if up && was_upper && !is_upper { 1.0 } else { 0.0 };
+                wraps[lane] -= if !up && !was_upper && is_upper { 1.0 } else { 0.0 };
             }
             from = to;
             if k % EDGES_PER_SCALE == EDGES_PER_SCALE - 1 || k == count - 1 {
@@ -201,9 +206,8 @@ impl Row {
                 }
             }
         }
-        for lane in 0..=last {
-            real[place(lane)] = x[lane];
-            imaginary[place(lane)] = y[lane];
+        for (part, result) in product.iter_mut().zip([x, y, wraps]) {
+            (0..=last).for_each(|lane| part[place(lane)] = result[lane]);
         }
         W
     }

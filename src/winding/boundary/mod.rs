@@ -23,12 +23,9 @@ const EXACT: f64 = 1e-12;
 /// Bounds of interpolation errors are at least this many times what is seen (300 times for 1e-5 on the bunny, more for finer
 /// and coarser ones): where an error is promised but no proof.
 const MARGIN: f64 = 100.0;
-/// Axes with up to this many samples are not divided.
+/// Axes with up to this many samples are not divided, and in the box of a loop.
 const FEW: usize = 4;
-/// A product of factors is read off while the sum is known to be below 1/2 in magnitude, with a margin.
-const MOST_TURNS: f64 = 0.49;
-/// Loops that may make more than this of a block are looked at from its parts.
-const MOST_OF_LOOP: f64 = 0.24;
+const FEW_INSIDE: usize = 2;
 /// Costs of a sample or node, in those of an edge seen from it: of interpolation, for each node along an axis; of the
 /// arctangent.
 const INTERPOLATION_COST: f64 = 0.15;
@@ -194,7 +191,7 @@ impl Block<'_> {
         if plan.near.is_empty() {
             self.add_interpolant(&region, &grid, from);
         } else {
-            each_part(&region, |part| self.divide(part, &plan.near, from));
+            each_part(&region, FEW, |part| self.divide(part, &plan.near, from));
         }
     }
 
@@ -229,15 +226,8 @@ impl Block<'_> {
         let region = all(&points);
         let bounds = box_of(grid, &all(grid));
         let mut products = Products::of(&points, self.field.unit);
-        let mut turns = 0.0;
         for l in &plan.far {
             let one = &self.field.loops[*l as usize];
-            let most = largest(one.area, &one.bounds, &bounds);
-            if turns + most > MOST_TURNS {
-                products.add_to(&mut values);
-                turns = 0.0;
-            }
-            turns += most;
             let direction = away(&bounds, &one.bounds).expect("loops that are far are apart");
             products.multiply(&points, &region, &one.points, direction);
         }
@@ -265,20 +255,9 @@ impl Block<'_> {
             return;
         }
         let everywhere = all(grid);
-        let bounds = box_of(grid, &everywhere);
         let mut sum = Sum { caps: self.caps, grid, products: Products::of(grid, self.field.unit) };
         let mut values = vec![0.0; grid.iter().map(Vec::len).product()];
-        let mut turns = 0.0;
-        for l in loops {
-            let one = &self.field.loops[*l as usize];
-            let most = largest(one.area, &one.bounds, &bounds).min(MOST_OF_LOOP);
-            if turns + most > MOST_TURNS {
-                sum.products.add_to(&mut values);
-                turns = 0.0;
-            }
-            turns += most;
-            sum.add(&everywhere, one, &mut values);
-        }
+        loops.iter().for_each(|l| sum.add(&everywhere, &self.field.loops[*l as usize], &mut values));
         sum.products.add_to(&mut values);
         self.add(region, &values);
     }
@@ -295,12 +274,10 @@ impl Sum<'_> {
     /// Adds a loop's field at the samples of a region, from as far as that can be: to the products, or to the values.
     fn add(&mut self, region: &Region, one: &Loop, values: &mut [f64]) {
         let bounds = box_of(self.grid, region);
-        if largest(one.area, &one.bounds, &bounds) <= MOST_OF_LOOP
-            && let Some(direction) = away(&bounds, &one.bounds)
-        {
+        if let Some(direction) = away(&bounds, &one.bounds) {
             self.products.multiply(self.grid, region, &one.points, direction);
-        } else if region.iter().any(|range| range.len() > FEW) {
-            each_part(region, |part| self.add(&part, one, values));
+        } else if region.iter().any(|range| range.len() > FEW_INSIDE) {
+            each_part(region, FEW_INSIDE, |part| self.add(&part, one, values));
         } else {
             self.add_carefully(region, one, values);
         }
@@ -326,10 +303,10 @@ impl Sum<'_> {
 }
 
 /// Calls `each` for the parts of a region, halved along each axis of many samples.
-fn each_part(region: &Region, mut each: impl FnMut(Region)) {
+fn each_part(region: &Region, few: usize, mut each: impl FnMut(Region)) {
     let halves = |axis: usize| {
         let Range { start, end } = region[axis].clone();
-        let middle = if end - start > FEW { start + (end - start) / 2 } else { start };
+        let middle = if end - start > few { start + (end - start) / 2 } else { start };
         [start..middle, middle..end]
     };
     let [x, y, z] = [0, 1, 2].map(halves);
