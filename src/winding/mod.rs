@@ -4,10 +4,13 @@
 //! (`scan` on lattices, `locate` at scattered points) and a fraction of what closes it (`chain`, `closure`, `curtain`); a
 //! cloud's is the tree of Barill et al. 2018. `hierarchy` and `parity` are the methods that the paper compares itself with.
 mod angle_product;
+mod answers;
+mod boundary;
 mod buckets;
 mod certificate;
 mod chain;
 mod closure;
+mod columns;
 mod curtain;
 mod dipoles;
 mod error_model;

@@ -1,4 +1,5 @@
 //! The field of a soup: an exact integer by crossings, and a fraction of its closure (see [`super::closure`]).
+use super::answers::{INSIDE, answers, least_of};
 use super::certificate::CapBalls;
 use super::closure::{Closure, ClosureCounts};
 use super::curtain::{Curtain, LANES};
@@ -43,11 +44,10 @@ pub struct SoupField {
 /// What scattered points need; built when the first is asked for.
 struct Index {
     locator: Locator,
-    /// The least integer part that is inside, for each cell of the locator; `UNKNOWN` where it varies.
-    least: Vec<i8>,
+    /// What is known of each cell of the locator for the threshold 1/2 (see [`answers`]); empty where that is its crossings
+    /// or nothing.
+    answers: Vec<i8>,
 }
-
-const UNKNOWN: i8 = i8::MIN;
 
 /// How the fraction is summed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,7 +100,7 @@ impl SoupField {
     }
 
     pub fn bytes(&self) -> usize {
-        let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.least.len());
+        let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.answers.len());
         self.closure.bytes() + self.tree.as_ref().map_or(0, Tree::bytes) + index
     }
 
@@ -163,23 +163,10 @@ impl SoupField {
         }
         // Caps span vertices of the soup.
         let locator = Locator::new(self.facets(), self.soup.bounds());
-        let least = if self.is_closed() || !self.is_certified() {
-            vec![]
-        } else {
-            locator.subdivide(UNKNOWN, |center, radius| self.least_in(center, radius))
-        };
-        let _ = self.index.set(Index { locator, least });
+        let is_known = self.is_closed() || !self.is_certified();
+        let answers = if is_known { vec![] } else { answers(self, &locator) };
+        let _ = self.index.set(Index { locator, answers });
         self.index.get().expect("it was set just now, here or by another thread")
-    }
-
-    /// The least integer part that is inside, if it is the same all through a ball.
-    fn least_in(&self, center: Vec3, radius: f64) -> Option<i8> {
-        if self.balls.variation(center, radius).is_infinite() {
-            return None;
-        }
-        let fraction = self.curtain.fraction(center) - f64::from(self.cap_crossings(center));
-        let least = self.balls.least_crossings(center, radius, fraction, HALF)?;
-        i8::try_from(least).ok().filter(|l| *l != UNKNOWN)
     }
 
     /// The gradient of w, which is that of the boundary chain: closed components have none.
@@ -275,11 +262,14 @@ impl SoupField {
     pub fn classify(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
         let index = self.index();
         let mut open = Vec::new();
-        for (k, (q, result)) in points.iter().zip(&mut *results).enumerate() {
-            match self.by_crossings(index, *q, threshold) {
-                Some(inside) => *result = inside,
-                None => open.push(k),
-            }
+        self.glance(index, points, threshold, results, &mut open);
+        open.retain(|k| {
+            let decided = self.by_crossings(index, points[*k], threshold);
+            results[*k] = decided.unwrap_or(false);
+            decided.is_none()
+        });
+        if open.is_empty() {
+            return;
         }
         if !self.is_certified() {
             for beta in [COARSE_BETA, FINE_BETA] {
@@ -303,6 +293,29 @@ impl SoupField {
         open.iter().zip(values).for_each(|(k, w)| results[*k] = w >= threshold - TIE);
     }
 
+    /// Decides what can be told from the cells of the points alone; gives the others by number.
+    fn glance(
+        &self,
+        index: &Index,
+        points: &[Vec3],
+        threshold: f64,
+        results: &mut [bool],
+        open: &mut Vec<usize>,
+    ) {
+        let is_known = threshold.abs() < 100.0 && self.is_closed();
+        let (table, outside, least) = if is_known {
+            // Where a negative integer is inside, so is all of space: points that are not finite are looked at singly.
+            let least = threshold.ceil() as i8;
+            (index.locator.cells(), if least > 0 { 0 } else { i8::MIN }, least)
+        } else if threshold == HALF && !index.answers.is_empty() {
+            (&index.answers[..], i8::MIN, INSIDE)
+        } else {
+            open.extend(0..points.len());
+            return;
+        };
+        index.locator.glance(points, (table, outside), least, results, |k| open.push(k));
+    }
+
     /// Decides without the fraction, where that can be.
     fn by_crossings(&self, index: &Index, q: Vec3, threshold: f64) -> Option<bool> {
         if !q.is_finite() {
@@ -310,8 +323,8 @@ impl SoupField {
         }
         let least = if self.is_closed() {
             Some(threshold.ceil().clamp(-1e9, 1e9) as i32)
-        } else if threshold == HALF && !index.least.is_empty() {
-            index.locator.cell(q).map(|cell| index.least[cell]).filter(|l| *l != UNKNOWN).map(i32::from)
+        } else if threshold == HALF && !index.answers.is_empty() {
+            index.locator.cell(q).and_then(|cell| least_of(index.answers[cell]))
         } else {
             None
         };
