@@ -5,7 +5,7 @@
 //! above its column (see [`super::columns`]) whose part there is neither beyond that cell nor ahead of the query.
 use super::columns::{Columns, FEWEST, STEP_BITS, Steps, step};
 use super::facets::{Facets, Role};
-use crate::data::map_parts;
+use crate::data::{BLOCK, map_parts};
 use crate::math::{Aabb, Vec3, meet};
 use std::ops::{Range, RangeInclusive};
 
@@ -189,7 +189,7 @@ impl Locator {
     }
 
     /// Answers `code >= least` where a table has a known code for the cell of a point, `outside` beyond all cells, and
-    /// gives the others to `open` by number.
+    /// gives the others to `open` by number; of up to [`BLOCK`] points.
     #[inline]
     pub fn glance(
         &self,
@@ -202,14 +202,18 @@ impl Locator {
         // A point of the bounds may be rounded out of them.
         const SLACK: f64 = 1e-3;
         const END: f64 = (1u32 << STEP_BITS) as f64 + SLACK;
-        for (number, (q, result)) in points.iter().zip(results).enumerate() {
+        const BEYOND: u32 = u32::MAX;
+        // Apart from each other, so that many of the look-ups, which miss the caches, wait at the same time.
+        let mut cells = [BEYOND; BLOCK];
+        for (q, cell) in points.iter().zip(&mut cells) {
             let Vec3 { x, y, z } = self.steps.local(*q);
             let within = |c: f64| (-SLACK <= c) & (c <= END);
-            let code = if within(x) & within(y) & within(z) {
-                table[self.cell_of([x, y, z].map(step))]
-            } else {
-                outside
-            };
+            if within(x) & within(y) & within(z) {
+                *cell = self.cell_of([x, y, z].map(step)) as u32;
+            }
+        }
+        let codes = cells.map(|cell| table.get(cell as usize).copied().unwrap_or(outside));
+        for (number, (code, result)) in codes.into_iter().zip(results).enumerate() {
             *result = code >= least;
             if code < FIRST_KNOWN {
                 open(number);
