@@ -8,7 +8,7 @@ pub use aabb::Aabb;
 pub use glam::{DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
 pub use plane::{PlaneFit, fit_plane};
 pub use predicates::{
-    Sign, covers, meet, normal_signs, orient_yz, perturbed_side_of_plane, side_of_edge, side_of_plane, tie_break,
-    touches,
+    Sign, covers, meet, normal_signs, orient_yz, perturbed_side_of_plane, side_of_edge, side_of_plane,
+    tie_break, touches,
 };
 pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};

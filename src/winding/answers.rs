@@ -94,7 +94,11 @@ impl Division<'_> {
                 let undecided: Vec<_> = blocks.iter().zip(fractions).filter(undecided).collect();
                 divided.extend(undecided.iter().map(|(block, _)| block.first));
             }
-            firsts = if side > 1 { divided.into_iter().flat_map(|f| halves(f, side / 2)).collect() } else { vec![] };
+            firsts = if side > 1 {
+                divided.into_iter().flat_map(|f| halves(f, side / 2)).collect()
+            } else {
+                vec![]
+            };
             side /= 2;
         }
     }
@@ -112,7 +116,13 @@ impl Division<'_> {
             }
             let least = low as i8;
             self.set(block.first, side, |crossings| match crossings {
-                FIRST_KNOWN.. => if crossings >= least { INSIDE } else { OUTSIDE },
+                FIRST_KNOWN.. => {
+                    if crossings >= least {
+                        INSIDE
+                    } else {
+                        OUTSIDE
+                    }
+                }
                 _ => LEAST_ZERO + least,
             });
             return true;
@@ -135,7 +145,8 @@ impl Division<'_> {
         let [x, y, z] = std::array::from_fn(|k| first[k] - self.corner[k]);
         for k in 0..side * side {
             let (dy, dz) = (k % side, k / side);
-            let crossings = &self.locator.cells()[((first[2] + dz) * all + first[1] + dy) * all + first[0]..][..side];
+            let crossings =
+                &self.locator.cells()[((first[2] + dz) * all + first[1] + dy) * all + first[0]..][..side];
             let codes = &mut self.codes[((z + dz) * self.top + y + dy) * self.top + x..][..side];
             codes.iter_mut().zip(crossings).for_each(|(to, from)| *to = code(*from));
         }

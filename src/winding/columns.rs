@@ -190,7 +190,8 @@ impl Plane {
         let normal = (*b - *a).cross(*c - *a);
         let slopes = [-normal.y / normal.x, -normal.z / normal.x];
         let error = PRODUCT_ERROR * (size.x + size.y + size.z) / (normal.x.abs() - PRODUCT_ERROR);
-        let is_known = (0.0..HEIGHT_ERROR).contains(&error) && slopes[0].abs() < STEEP && slopes[1].abs() < STEEP;
+        let is_known =
+            (0.0..HEIGHT_ERROR).contains(&error) && slopes[0].abs() < STEEP && slopes[1].abs() < STEEP;
         Plane { corner: *a, slopes, error: if is_known { error + MARGIN } else { f64::INFINITY } }
     }
 

@@ -135,7 +135,9 @@ impl Locator {
             let (before, rest) = plane.split_at_mut(j * side);
             let (row, below) = (&mut rest[..side], before.chunks_exact(side).next_back());
             let mut last = None;
-            for run in runs(row) {
+            let mut start = 0;
+            while let Some(run) = next_run(row, start) {
+                start = run.end;
                 // Neighbours without a triangle between them have the same crossings; outside of the bounds there are none.
                 let beside = below.and_then(|below| below[run.clone()].iter().find(|c| **c >= FIRST_KNOWN));
                 let is_outermost = run.start == 0 || run.end == side || j == 0 || k == 0 || k + 1 == side;
@@ -173,6 +175,12 @@ impl Locator {
     fn cell_of(&self, [x, y, z]: [u32; 3]) -> usize {
         let [x, y, z] = [x, y, z].map(|c| (c >> self.shift()) as usize);
         (((z << self.bits) + y) << self.bits) + x
+    }
+
+    /// The square of the distance of a point from the bounds.
+    pub fn distance_squared(&self, q: Vec3) -> f64 {
+        let bounds = &self.bounds;
+        if bounds.is_empty() { 0.0 } else { q.distance_squared(q.max(bounds.min).min(bounds.max)) }
     }
 
     /// The cell that holds a point of the bounds.
@@ -272,14 +280,9 @@ impl Locator {
     }
 }
 
-/// Runs of cells that no triangle comes near.
-fn runs(row: &[i8]) -> Vec<Range<usize>> {
-    let mut runs: Vec<Range<usize>> = Vec::new();
-    for (place, _) in row.iter().enumerate().filter(|(_, code)| **code == 0) {
-        match runs.last_mut() {
-            Some(run) if run.end == place => run.end += 1,
-            _ => runs.push(place..place + 1),
-        }
-    }
-    runs
+/// The first run of cells, from `start` on, that no triangle comes near.
+fn next_run(row: &[i8], start: usize) -> Option<Range<usize>> {
+    let first = start + row[start..].iter().position(|code| *code == 0)?;
+    let length = row[first..].iter().position(|code| *code != 0).unwrap_or(row.len() - first);
+    Some(first..first + length)
 }

@@ -12,8 +12,9 @@ use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
 use crate::bvh::WIDTH;
 use crate::data::{BLOCK, TriangleSoup};
-use crate::math::{Vec3, covers, orient_yz, perturbed_side_of_plane};
+use crate::math::{Vec3, area_vector, covers, orient_yz, perturbed_side_of_plane};
 use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig};
+use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
 use wide::f64x4;
@@ -47,6 +48,8 @@ struct Index {
     /// What is known of each cell of the locator for the threshold 1/2 (see [`answers`]); empty where that is its crossings
     /// or nothing.
     answers: Vec<i8>,
+    /// Of all caps.
+    cap_area: f64,
 }
 
 /// How the fraction is summed.
@@ -165,7 +168,8 @@ impl SoupField {
         let locator = Locator::new(self.facets(), self.soup.bounds());
         let is_known = self.is_closed() || !self.is_certified();
         let answers = if is_known { vec![] } else { answers(self, &locator) };
-        let _ = self.index.set(Index { locator, answers });
+        let cap_area = self.closure.caps.iter().map(|cap| area_vector(*cap).length()).sum();
+        let _ = self.index.set(Index { locator, answers, cap_area });
         self.index.get().expect("it was set just now, here or by another thread")
     }
 
@@ -194,7 +198,11 @@ impl SoupField {
     pub(super) fn cap_crossings(&self, q: Vec3) -> i32 {
         let one = |cap: &[Vec3; 3]| {
             let corners = [cap[0], cap[2], cap[1]];
-            if !covers(q, corners) {
+            let [a, b, c] = corners;
+            let beside = |axis: usize| {
+                q[axis] < a[axis].min(b[axis]).min(c[axis]) || q[axis] > a[axis].max(b[axis]).max(c[axis])
+            };
+            if beside(1) || beside(2) || !covers(q, corners) {
                 return 0;
             }
             let facing = orient_yz(corners[0], corners[1], corners[2]);
@@ -320,6 +328,11 @@ impl SoupField {
     fn by_crossings(&self, index: &Index, q: Vec3, threshold: f64) -> Option<bool> {
         if !q.is_finite() {
             return Some(false);
+        }
+        // So far away the caps span too small a solid angle for w to reach the threshold from 0.
+        let reach = 4.0 * PI * threshold.abs() * index.locator.distance_squared(q);
+        if self.closure.loose.is_empty() && reach > index.cap_area * (1.0 + 1e-9) {
+            return Some(threshold < 0.0);
         }
         let least = if self.is_closed() {
             Some(threshold.ceil().clamp(-1e9, 1e9) as i32)
