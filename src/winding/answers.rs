@@ -35,6 +35,7 @@ struct Block {
     first: [usize; 3],
     middle: Vec3,
     variation: f64,
+    has_caps: bool,
 }
 
 /// The codes of all cells of a locator, for the threshold 1/2.
@@ -80,9 +81,15 @@ impl Division<'_> {
                 let (middle, half) = self.locator.middle(first, side);
                 // Points are rounded to cells by far less than that.
                 let radius = half.length() * (1.0 + 1e-5);
-                let variation = self.boundary.variation(middle, radius, LARGEST_VARIATION);
+                let near = self.locator.near(first, side);
+                // Neither the fraction nor w is smooth in all of the block.
+                let variation = if near.caps && near.surface {
+                    f64::INFINITY
+                } else {
+                    self.boundary.variation(middle, radius, LARGEST_VARIATION)
+                };
                 if variation.is_finite() {
-                    plausible.push(Block { first, middle, variation });
+                    plausible.push(Block { first, middle, variation, has_caps: near.caps });
                 } else {
                     divided.push(first);
                 }
@@ -106,8 +113,7 @@ impl Division<'_> {
     /// Sets the codes of a block, given the sum of the curtains in its middle, if it is known what they are.
     fn decide(&mut self, block: &Block, side: usize, fraction: f64) -> bool {
         let slack = block.variation + ROUNDING;
-        let near = self.locator.near(block.first, side);
-        if !near.caps {
+        if !block.has_caps {
             let fraction = fraction - f64::from(self.field.cap_crossings(block.middle));
             let least = |fraction: f64| (HALF - fraction).ceil();
             let (low, high) = (least(fraction + slack), least(fraction - slack));
@@ -126,9 +132,6 @@ impl Division<'_> {
                 _ => LEAST_ZERO + least,
             });
             return true;
-        }
-        if near.surface {
-            return false;
         }
         let crossings = self.locator.locate(self.field.facets(), block.middle, false).crossings;
         let w = f64::from(crossings) + fraction;
