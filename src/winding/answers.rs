@@ -12,6 +12,9 @@ use crate::math::Vec3;
 
 /// Cells along a side of the blocks with which division begins.
 const TOP: usize = 32;
+/// Most blocks along a side. On the bunny, whose table has twice as many cells, halving once more takes as long as
+/// three million queries would gain.
+const DIVISIONS: usize = 64;
 /// Rounding of an exactly summed fraction, with a margin.
 const ROUNDING: f64 = 1e-11;
 /// Blocks over which w may vary by more are divided at once: half a winding number away from the threshold at most.
@@ -74,6 +77,7 @@ struct Division<'a> {
 impl Division<'_> {
     fn run(mut self) {
         let mut side = self.top;
+        let finest = (self.locator.side() / DIVISIONS).max(1);
         let mut firsts = vec![self.corner];
         while !firsts.is_empty() {
             let (mut plausible, mut divided) = (Vec::new(), Vec::new());
@@ -101,7 +105,7 @@ impl Division<'_> {
                 let undecided: Vec<_> = blocks.iter().zip(fractions).filter(undecided).collect();
                 divided.extend(undecided.iter().map(|(block, _)| block.first));
             }
-            firsts = if side > 1 {
+            firsts = if side > finest {
                 divided.into_iter().flat_map(|f| halves(f, side / 2)).collect()
             } else {
                 vec![]

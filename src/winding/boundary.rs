@@ -7,7 +7,7 @@ use crate::math::{Aabb, Vec3};
 use std::f64::consts::PI;
 
 /// Edges of a group: consecutive ones of a cycle lie close together.
-const GROUP: usize = 16;
+const GROUP: usize = 6;
 /// Groups farther away than this many of their radii, and of the ball's, are bounded as a whole.
 const FAR: f64 = 3.0;
 

@@ -105,7 +105,7 @@ impl Columns {
             let count = 1usize << (2 * bits);
             let found: Buckets<Entry> = Buckets::collect(facets.len(), count, |facet, put| {
                 let corners = facets.corners(facet).map(|p| steps.local(p));
-                for_each_column(facet as u32, &corners, bits, |column, entry| put(column, entry));
+                for_each_column(facet as u32, &corners, bits, &mut *put);
             });
             if found.len() > ENTRIES_PER_FACET * facets.len() && bits > FEWEST {
                 bits -= 1;

@@ -197,7 +197,7 @@ impl Locator {
     }
 
     /// Answers `code >= least` where a table has a known code for the cell of a point, `outside` beyond all cells, and
-    /// gives the others to `open` by number; of up to [`BLOCK`] points.
+    /// gives the others to `open` by number.
     #[inline]
     pub fn glance(
         &self,
@@ -211,20 +211,22 @@ impl Locator {
         const SLACK: f64 = 1e-3;
         const END: f64 = (1u32 << STEP_BITS) as f64 + SLACK;
         const BEYOND: u32 = u32::MAX;
-        // Apart from each other, so that many of the look-ups, which miss the caches, wait at the same time.
-        let mut cells = [BEYOND; BLOCK];
-        for (q, cell) in points.iter().zip(&mut cells) {
-            let Vec3 { x, y, z } = self.steps.local(*q);
-            let within = |c: f64| (-SLACK <= c) & (c <= END);
-            if within(x) & within(y) & within(z) {
-                *cell = self.cell_of([x, y, z].map(step)) as u32;
+        let within = |c: f64| (-SLACK..=END).contains(&c);
+        for (block, (points, results)) in points.chunks(BLOCK).zip(results.chunks_mut(BLOCK)).enumerate() {
+            // Apart from each other, so that many of the look-ups, which miss the caches, wait at the same time.
+            let mut cells = [BEYOND; BLOCK];
+            for (q, cell) in points.iter().zip(&mut cells) {
+                let Vec3 { x, y, z } = self.steps.local(*q);
+                if within(x) & within(y) & within(z) {
+                    *cell = self.cell_of([x, y, z].map(step)) as u32;
+                }
             }
-        }
-        let codes = cells.map(|cell| table.get(cell as usize).copied().unwrap_or(outside));
-        for (number, (code, result)) in codes.into_iter().zip(results).enumerate() {
-            *result = code >= least;
-            if code < FIRST_KNOWN {
-                open(number);
+            let codes = cells.map(|cell| table.get(cell as usize).copied().unwrap_or(outside));
+            for (number, (code, result)) in codes.into_iter().zip(results).enumerate() {
+                *result = code >= least;
+                if code < FIRST_KNOWN {
+                    open(block * BLOCK + number);
+                }
             }
         }
     }

@@ -265,8 +265,7 @@ impl SoupField {
         self.principal(q, &self.index().locator.locate(self.facets(), q, true).touching)
     }
 
-    /// Whether w ≥ `threshold` at up to [`BLOCK`] points: by crossings alone where the fraction does not matter, then by
-    /// estimates while these are farther from the threshold than their error, at last exactly.
+    /// Whether w ≥ `threshold`: by crossings alone where the fraction does not matter, elsewhere by sums.
     pub fn classify(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
         let index = self.index();
         let mut open = Vec::new();
@@ -276,9 +275,18 @@ impl SoupField {
             results[*k] = decided.unwrap_or(false);
             decided.is_none()
         });
-        if open.is_empty() {
-            return;
+        for some in open.chunks(BLOCK) {
+            let queries: Vec<Vec3> = some.iter().map(|k| points[*k]).collect();
+            let mut inside = [false; BLOCK];
+            self.classify_by_sums(&queries, threshold, &mut inside, scratch);
+            some.iter().zip(inside).for_each(|(k, inside)| results[*k] = inside);
         }
+    }
+
+    /// Whether w ≥ `threshold` at up to [`BLOCK`] points: by estimates while these are farther from the threshold than
+    /// their error, at last exactly.
+    fn classify_by_sums(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
+        let mut open: Vec<usize> = (0..points.len()).collect();
         if !self.is_certified() {
             for beta in [COARSE_BETA, FINE_BETA] {
                 let near = |w: f64| (w - threshold).abs() <= SOUP_ERROR.error(beta);
