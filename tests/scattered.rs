@@ -27,7 +27,11 @@ fn models() -> Vec<(&'static str, TriangleSoup)> {
     let slivers = moved(&cube(1.0), |p| Vec3::new(p.x + p.y, p.y + 1e-9 * p.x, p.z + p.y));
     let one =
         TriangleSoup::new(vec![Vec3::ZERO, Vec3::X, Vec3::new(0.2, 0.7, 0.9)], vec![[0, 1, 2]]).unwrap();
+    // Each of its sides is above all columns of a row, so that columns are wider than cells.
+    let prism = prism(400);
     vec![
+        ("prism", prism.clone()),
+        ("open prism", without(&prism, |t| t < 14 || t == 403)),
         ("ball", ball.clone()),
         ("ring", ring.clone()),
         ("overlapping", overlapping),
@@ -39,6 +43,25 @@ fn models() -> Vec<(&'static str, TriangleSoup)> {
         ("open ring", without(&ring, |t| (200..215).contains(&t) || t % 311 == 0)),
         ("open cube in a closed one", joined(&[cube(2.0), without(&subdivided_cube(), |t| t < 18)])),
     ]
+}
+
+/// A leaning cylinder along z of `n` sides, two triangles to each, then two to close it.
+fn prism(n: usize) -> TriangleSoup {
+    let corner = |k: usize, z: f64| {
+        let angle = std::f64::consts::TAU * (k % n) as f64 / n as f64;
+        Vec3::new(angle.cos() + 0.7 * z, angle.sin(), 2.0 * z)
+    };
+    let side = |k: usize| {
+        let [a, b, c, d] = [corner(k, 0.0), corner(k + 1, 0.0), corner(k + 1, 1.0), corner(k, 1.0)];
+        [[a, b, c], [a, c, d]]
+    };
+    let lid = |k: usize| {
+        let (low, high) = (Vec3::ZERO, Vec3::new(0.7, 0.0, 2.0));
+        [[low, corner(k + 1, 0.0), corner(k, 0.0)], [high, corner(k, 1.0), corner(k + 1, 1.0)]]
+    };
+    let faces: Vec<[Vec3; 3]> = (0..n).flat_map(side).chain((0..n).flat_map(lid)).collect();
+    let triangles = (0..faces.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    TriangleSoup::new(faces.concat(), triangles).unwrap()
 }
 
 /// A cube of half size 1 with 3 · 3 squares on each side, the ones at x = −1 first.

@@ -193,6 +193,22 @@ mod tests {
     }
 
     #[test]
+    fn a_ray_meets_what_the_single_predicates_say() {
+        let mut state = 1u64;
+        let mut point = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            Vec3::from_array([0, 1, 2].map(|k| f64::from((state >> (20 + 8 * k)) as u32 % 4)))
+        };
+        for _ in 0..100_000 {
+            let (triangle, q) = ([point(), point(), point()], point());
+            let facing = orient_yz(triangle[0], triangle[1], triangle[2]);
+            let is_crossed = covers(q, triangle) && perturbed_side_of_plane(q, triangle) == facing;
+            let crossing = if is_crossed { -facing } else { 0 };
+            assert_eq!(meet(q, triangle), (crossing, touches(q, triangle)), "{q} {triangle:?}");
+        }
+    }
+
+    #[test]
     fn a_triangle_touches_its_rim_and_nothing_beyond() {
         for q in [Vec3::ZERO, Vec3::X, 0.5 * (Vec3::X + Vec3::Y), Vec3::new(0.2, 0.2, 0.0)] {
             assert!(touches(q, FLAT), "{q}");

@@ -64,13 +64,16 @@ impl Group {
     /// 4π times the variation for each length of the path; infinite if an edge may be within `radius` of `center`.
     fn variation(&self, center: Vec3, radius: f64) -> f64 {
         let distance = center.distance(self.center) * (1.0 - 1e-9) - self.radius;
+        if !distance.is_finite() {
+            return f64::INFINITY; // its square is out of range
+        }
         if distance > FAR * self.radius.max(radius) {
             return self.length / (distance * (distance - radius));
         }
         let mut sum = 0.0;
         for edge in &self.edges {
             let distance = edge.distance(center);
-            if distance <= radius * (1.0 + 1e-9) {
+            if distance <= radius * (1.0 + 1e-9) || !distance.is_finite() {
                 return f64::INFINITY;
             }
             sum += (edge.length / distance).min(2.0) / (distance - radius);

@@ -1,8 +1,9 @@
 //! The winding field of a soup or a cloud: one question, *how many times is this point inside?*
 //!
 //! `exact` is the definition and the oracle. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
-//! (`scan` on lattices, `locate` at scattered points) and a fraction of what closes it (`chain`, `closure`, `curtain`); a
-//! cloud's is the tree of Barill et al. 2018. `hierarchy` and `parity` are the methods that the paper compares itself with.
+//! (`scan` on lattices, `locate` over `columns` at scattered points) and a fraction of what closes it (`chain`, `closure`,
+//! `curtain`), which `answers` and `certificate` spare most inside tests; a cloud's is the tree of Barill et al. 2018.
+//! `hierarchy` and `parity` are the methods that the paper compares itself with.
 mod angle_product;
 mod answers;
 mod boundary;
