@@ -37,16 +37,17 @@ pub fn fill_in_blocks<T: Send, S: Default>(
     let each = |first: usize, run: &mut [T], scratch: &mut S| {
         run.iter_mut().enumerate().for_each(|(offset, slot)| *slot = value(first + offset, scratch));
     };
-    fill_blocks(values, each, stage, monitor)
+    fill_blocks(values, BLOCK, each, stage, monitor)
 }
 
-/// Sets `values` in runs of up to [`BLOCK`] by `fill(index of the first, run, scratch)`, in parallel, with reports of
+/// Sets `values` in runs of up to `size` by `fill(index of the first, run, scratch)`, in parallel, with reports of
 /// `stage` to `monitor` between blocks of runs.
 ///
 /// # Errors
 /// If and only if the monitor cancels; the values are then partly set.
 pub fn fill_blocks<T: Send, S: Default>(
     values: &mut [T],
+    size: usize,
     fill: impl Fn(usize, &mut [T], &mut S) + Sync,
     stage: &str,
     monitor: &dyn Monitor,
@@ -55,7 +56,7 @@ pub fn fill_blocks<T: Send, S: Default>(
     for (block, run) in values.chunks_mut(SAMPLES_PER_REPORT).enumerate() {
         let start = block * SAMPLES_PER_REPORT;
         monitor.report(start as f64 / total as f64, stage)?;
-        map_parts(run, BLOCK, |task, chunk| fill(start + task * BLOCK, chunk, &mut S::default()));
+        map_parts(run, size, |task, chunk| fill(start + task * size, chunk, &mut S::default()));
     }
     monitor.report(1.0, stage)
 }

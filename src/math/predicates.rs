@@ -126,6 +126,34 @@ pub fn touches(q: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     on_inner_side(a, b) && on_inner_side(b, c) && on_inner_side(c, a)
 }
 
+/// How the ray from q' along −x meets a triangle: the sign with which it crosses, 0 if it does not, and whether q itself
+/// lies on the triangle.
+#[inline]
+pub fn meet(q: Vec3, corners: [Vec3; 3]) -> (Sign, bool) {
+    let [a, b, c] = corners;
+    let sides = [orient_yz(a, b, q), orient_yz(b, c, q), orient_yz(c, a, q)];
+    if sides.contains(&1) && sides.contains(&-1) {
+        return (0, false); // beside the projection
+    }
+    let (low, high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+    let is_covered = if sides.contains(&0) { covers(q, corners) } else { true };
+    let facing = match sides {
+        _ if !is_covered => 0,
+        [0, ..] => orient_yz(a, b, c),
+        [side, ..] => side,
+    };
+    if q.x < low {
+        return (0, false);
+    }
+    if q.x > high {
+        return (-facing, false);
+    }
+    let side = side_of_plane(q, corners);
+    let is_before = facing != 0 && facing == if side == 0 { tie_break(corners) } else { side };
+    let touches = side == 0 && (!sides.contains(&0) || touches(q, corners));
+    (if is_before { -facing } else { 0 }, touches)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -162,6 +190,22 @@ mod tests {
         assert_eq!(side_of_plane(on, triangle), 0);
         assert_eq!(side_of_edge(off, a, b), orient_yz(a, b, off));
         assert_ne!(orient_yz(a, b, off), 0);
+    }
+
+    #[test]
+    fn a_ray_meets_what_the_single_predicates_say() {
+        let mut state = 1u64;
+        let mut point = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            Vec3::from_array([0, 1, 2].map(|k| f64::from((state >> (20 + 8 * k)) as u32 % 4)))
+        };
+        for _ in 0..100_000 {
+            let (triangle, q) = ([point(), point(), point()], point());
+            let facing = orient_yz(triangle[0], triangle[1], triangle[2]);
+            let is_crossed = covers(q, triangle) && perturbed_side_of_plane(q, triangle) == facing;
+            let crossing = if is_crossed { -facing } else { 0 };
+            assert_eq!(meet(q, triangle), (crossing, touches(q, triangle)), "{q} {triangle:?}");
+        }
     }
 
     #[test]

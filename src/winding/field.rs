@@ -10,6 +10,9 @@ use crate::treecode::{Order, Scratch, Tree, TreeConfig};
 use serde::Serialize;
 use std::sync::OnceLock;
 
+/// Inside tests that make a task: few need a sum, and these few are then summed together.
+const INSIDE_TESTS: usize = 512;
+
 /// How a field is prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldConfig {
@@ -253,7 +256,7 @@ impl WindingField {
                 self.at_block(&points[start..start + values.len()], values, accuracy, scratch);
             }
         };
-        fill_blocks(&mut values, block, "winding numbers", monitor)?;
+        fill_blocks(&mut values, BLOCK, block, "winding numbers", monitor)?;
         Ok(values)
     }
 
@@ -340,11 +343,11 @@ impl WindingField {
                 };
                 results.iter_mut().enumerate().for_each(singly);
             }
-            Engine::Soup(_) => {
-                self.exceeds_block(&points[start..start + results.len()], HALF, results, scratch);
+            Engine::Soup(soup) => {
+                soup.classify(&points[start..start + results.len()], HALF, results, scratch);
             }
         };
-        fill_blocks(&mut inside, block, "inside test", monitor)?;
+        fill_blocks(&mut inside, INSIDE_TESTS, block, "inside test", monitor)?;
         Ok(inside)
     }
 

@@ -1,35 +1,35 @@
 //! The exact integer part at scattered points: crossings of a ray along −x.
 //!
-//! Columns of a square grid over the yz plane list the triangles above them; cells of a cubic grid that no triangle comes
-//! near carry the crossings of their middle, which hold for the whole cell.
-use super::buckets::Buckets;
+//! Cells of a grid that no triangle comes near carry the crossings of all their points. A ray from another cell ends in
+//! the first such cell that it reaches: what lies beyond is counted there. Between the two it meets the few triangles
+//! above its column (see [`super::columns`]) whose part there is neither beyond that cell nor ahead of the query.
+use super::columns::{Columns, FEWEST, STEP_BITS, Steps, step};
 use super::facets::{Facets, Role};
-use super::scan::{Scan, Slab};
-use crate::data::{Lattice, map_items, map_parts, map_tasks};
-use crate::math::{Aabb, Vec3, covers, orient_yz, perturbed_side_of_plane, touches};
+use crate::data::{BLOCK, map_parts};
+use crate::math::{Aabb, Vec3, meet};
+use std::ops::{Range, RangeInclusive};
 
-/// Most and fewest cells along a side. On the bunny 128 answers fastest: 256³ bytes no longer stay in the caches.
-const SIDES: std::ops::RangeInclusive<usize> = 4..=128;
+/// Fewest and most cells along a side, as powers of two. On the bunny 128 cells answer fastest: 256³ bytes no longer stay
+/// in the caches.
+const BITS: RangeInclusive<u32> = FEWEST..=7;
 /// Bytes of cells that a triangle may cost.
 const CELL_BYTES_PER_FACET: usize = 32;
-/// Entries of columns that a triangle may cost on average.
-const ENTRIES_PER_FACET: usize = 8;
-/// Cells are widened by this share of their size, to be safe from rounding.
-const MARGIN: f64 = 1e-6;
-/// In the place of the crossings: a triangle comes near the cell.
-const MIXED: i8 = i8::MIN;
+/// In the place of the crossings: triangles come near the cell, of the surface, of the caps, or of both.
+const SURFACE: i8 = -128;
+const CAP: i8 = -127;
+const BOTH: i8 = -126;
+/// More crossings than that do not fit beside the codes of cells.
+const CROSSINGS: RangeInclusive<i32> = -60..=120;
+/// Codes from here on are crossings.
+pub const FIRST_KNOWN: i8 = -60;
 
 /// An index of the triangles of a soup and its closure for rays along x.
 pub struct Locator {
-    origin: Vec3,
-    /// Cells per unit of length.
-    density: Vec3,
-    side: usize,
-    columns_side: usize,
+    steps: Steps,
     bounds: Aabb,
-    /// Where the entries of each column begin.
-    starts: Vec<u32>,
-    entries: Vec<u32>,
+    /// Cells along a side, as a power of two.
+    bits: u32,
+    columns: Columns,
     cells: Vec<i8>,
 }
 
@@ -42,230 +42,235 @@ pub struct Location {
     pub touching: Vec<u32>,
 }
 
-/// Which squares of a grid of `side`² over the yz plane, and which span along x there, a triangle covers.
-fn for_each_square(
-    corners: &[Vec3; 3],
-    origin: Vec3,
-    density: Vec3,
-    side: usize,
-    mut found: impl FnMut(usize, usize, [f64; 2]),
-) {
-    let local = corners.map(|p| (p - origin) * density);
-    let (low, high) = (local[0].min(local[1]).min(local[2]), local[0].max(local[1]).max(local[2]));
-    let last = side as f64 - 1.0;
-    let cells = |low: f64, high: f64| {
-        let bounded = |c: f64| c.floor().clamp(0.0, last) as usize;
-        bounded(low - MARGIN)..bounded(high + MARGIN) + 1
-    };
-    let normal = (local[1] - local[0]).cross(local[2] - local[0]);
-    let slopes = [-normal.y / normal.x, -normal.z / normal.x];
-    let is_steep = !(slopes[0].abs() < 1e6 && slopes[1].abs() < 1e6);
-    for k in cells(low.z, high.z) {
-        let (z0, z1) = (k as f64 - MARGIN, (k + 1) as f64 + MARGIN);
-        let (y0, y1) = span_between(&local, z0, z1);
-        for j in cells(y0, y1) {
-            let spread = 0.5 * (slopes[0].abs() + slopes[1].abs()) + 1e-3;
-            let middle = local[0].x
-                + slopes[0] * (j as f64 + 0.5 - local[0].y)
-                + slopes[1] * (k as f64 + 0.5 - local[0].z);
-            let x = if is_steep {
-                [low.x, high.x]
-            } else {
-                [low.x.max(middle - spread), high.x.min(middle + spread)]
-            };
-            found(j, k, x);
-        }
-    }
-}
-
-/// The extent along y of the part of a triangle between two heights.
-fn span_between(corners: &[Vec3; 3], z0: f64, z1: f64) -> (f64, f64) {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let mut take = |y: f64| (low, high) = (low.min(y), high.max(y));
-    for k in 0..3 {
-        let (s, t) = (corners[k], corners[(k + 1) % 3]);
-        if z0 <= s.z && s.z <= z1 {
-            take(s.y);
-        }
-        for z in [z0, z1] {
-            if (s.z < z) != (t.z < z) {
-                take(s.y + (z - s.z) / (t.z - s.z) * (t.y - s.y));
-            }
-        }
-    }
-    (low, high)
+/// What comes near a block of cells.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Near {
+    pub surface: bool,
+    pub caps: bool,
 }
 
 impl Locator {
     pub fn new(facets: Facets, bounds: Aabb) -> Locator {
-        let longest = bounds.size().max_element();
-        let origin = bounds.min;
-        let mut side = *SIDES.start();
-        while side < *SIDES.end() && (2 * side).pow(3) <= CELL_BYTES_PER_FACET * facets.len() {
-            side *= 2;
+        let mut bits = *BITS.start();
+        while bits < *BITS.end() && 1usize << (3 * (bits + 1)) <= CELL_BYTES_PER_FACET * facets.len() {
+            bits += 1;
         }
-        let size = bounds.size().max(Vec3::splat(longest.max(f64::MIN_POSITIVE) * 1e-3));
-        let mut locator = Locator {
-            origin,
-            density: Vec3::splat(side as f64) / size,
-            side,
-            columns_side: side,
-            bounds,
-            starts: vec![0; side * side + 1],
-            entries: vec![],
-            cells: vec![MIXED; side * side * side],
-        };
-        if !bounds.is_empty() {
-            locator.fill_columns(facets);
-            locator.fill_cells(facets);
-        }
+        let steps = Steps::new(bounds);
+        let columns = Columns::new(facets, &steps, bits);
+        let mut locator = Locator { steps, bounds, bits, columns, cells: vec![] };
+        let mut cells = vec![0; 1 << (3 * bits)];
+        map_parts(&mut cells, 1 << (2 * bits), |k, plane| {
+            locator.mark(facets, k, plane);
+            locator.count(facets, k, plane);
+        });
+        locator.cells = cells;
         locator
     }
 
-    fn fill_columns(&mut self, facets: Facets) {
-        loop {
-            let side = self.columns_side;
-            let density = self.density * (side as f64 / self.side as f64);
-            let columns: Buckets<u32> = Buckets::collect(facets.len(), side * side, |facet, put| {
-                for_each_square(&facets.corners(facet), self.origin, density, side, |j, k, _| {
-                    put(k * side + j, facet as u32);
-                });
-            });
-            let total: usize = columns.len();
-            if total > ENTRIES_PER_FACET * facets.len() && side > *SIDES.start() {
-                self.columns_side = side / 2;
-                continue;
+    /// Cells along a side.
+    pub fn side(&self) -> usize {
+        1 << self.bits
+    }
+
+    pub fn cells(&self) -> &[i8] {
+        &self.cells
+    }
+
+    /// The middle of a block of cells, and half the size of the block.
+    pub fn middle(&self, first: [usize; 3], side: usize) -> (Vec3, Vec3) {
+        let width = f64::from(1u32 << self.shift());
+        let half = 0.5 * side as f64;
+        let middle = Vec3::from_array(first.map(|c| c as f64 + half));
+        (self.steps.point(width * middle), self.steps.length(width * half))
+    }
+
+    /// Whether triangles of the surface and of the caps come near a block of cells.
+    pub fn near(&self, first: [usize; 3], side: usize) -> Near {
+        let mut near = Near::default();
+        for k in 0..side * side {
+            let row = ((first[2] + k / side) << self.bits) + first[1] + k % side;
+            let row = &self.cells[(row << self.bits) + first[0]..][..side];
+            near.surface |= row.iter().fold(false, |any, code| any | (*code == SURFACE) | (*code == BOTH));
+            near.caps |= row.iter().fold(false, |any, code| any | (*code == CAP) | (*code == BOTH));
+        }
+        near
+    }
+
+    fn shift(&self) -> u32 {
+        STEP_BITS - self.bits
+    }
+
+    /// Marks the cells of a plane that triangles come near.
+    fn mark(&self, facets: Facets, k: usize, plane: &mut [i8]) {
+        // Columns may be wider than cells.
+        let finer = self.bits - self.columns.bits();
+        let parts = |range: [u8; 2]| range.map(|p| usize::from(p) >> (8 - finer));
+        let part = k & ((1 << finer) - 1);
+        for column in 0..1 << self.columns.bits() {
+            for entry in self.columns.at(column, k >> finer) {
+                let ([y0, y1], [z0, z1]) = (parts(entry.y), parts(entry.z));
+                if part < z0 || z1 < part {
+                    continue;
+                }
+                let [x0, x1] = entry.x.map(|x| usize::from(x) >> self.shift());
+                let is_cap = facets.role(entry.facet as usize) == Role::Cap;
+                for y in y0..=y1 {
+                    let row = ((column << finer) + y) << self.bits;
+                    for cell in &mut plane[row + x0..=row + x1] {
+                        *cell = match (*cell, is_cap) {
+                            (0 | CAP, true) => CAP,
+                            (0 | SURFACE, false) => SURFACE,
+                            _ => BOTH,
+                        };
+                    }
+                }
             }
-            let lists: Vec<Vec<u32>> = map_items(side * side, |c| columns.bucket(c).collect());
-            self.starts = std::iter::once(0)
-                .chain(lists.iter().scan(0, |sum, list| {
-                    *sum += list.len() as u32;
-                    Some(*sum)
-                }))
-                .collect();
-            self.entries = lists.concat();
-            return;
         }
     }
 
-    fn fill_cells(&mut self, facets: Facets) {
-        let side = self.side;
-        let spacing = 1.0 / self.density;
-        let lattice = Lattice { origin: self.origin + 0.5 * spacing, spacing, counts: [side, side, side] };
-        let scan = Scan::new(facets, 0..facets.len(), &lattice);
-        let slab_cells = side * side * super::scan::SLAB_PLANES;
-        map_parts(&mut self.cells, slab_cells, |s, cells| {
-            let mut slab = Slab::default();
-            scan.count(s, &mut slab);
-            for (cell, crossings) in cells.iter_mut().zip(&slab.crossings) {
-                *cell = i8::try_from(*crossings).unwrap_or(MIXED);
+    /// Counts the crossings at the other cells of a marked plane.
+    fn count(&self, facets: Facets, k: usize, plane: &mut [i8]) {
+        let side = self.side();
+        for j in 0..side {
+            let (before, rest) = plane.split_at_mut(j * side);
+            let (row, below) = (&mut rest[..side], before.chunks_exact(side).next_back());
+            let mut last = None;
+            let mut start = 0;
+            while let Some(run) = next_run(row, start) {
+                start = run.end;
+                // Neighbours without a triangle between them have the same crossings; outside of the bounds there are none.
+                let beside = below.and_then(|below| below[run.clone()].iter().find(|c| **c >= FIRST_KNOWN));
+                let is_outermost = run.start == 0 || run.end == side || j == 0 || k == 0 || k + 1 == side;
+                let code = match beside {
+                    _ if is_outermost => 0,
+                    Some(code) => *code,
+                    None => self.code(facets, [run.start, j, k], last),
+                };
+                row[run.clone()].fill(code);
+                last = Some((run.end - 1, code)).filter(|_| code >= FIRST_KNOWN).or(last);
             }
-        });
-        let mixed: Vec<Vec<u32>> = map_tasks(facets.len().div_ceil(4096), |chunk| {
-            let mut found = Vec::new();
-            for facet in 4096 * chunk..facets.len().min(4096 * (chunk + 1)) {
-                let corners = facets.corners(facet);
-                for_each_square(&corners, self.origin, self.density, side, |j, k, [low, high]| {
-                    let bounded = |c: f64| c.floor().clamp(0.0, side as f64 - 1.0) as usize;
-                    for i in bounded(low - 1e-3)..=bounded(high + 1e-3) {
-                        found.push(((k * side + j) * side + i) as u32);
-                    }
-                });
-            }
-            found
-        });
-        mixed.into_iter().flatten().for_each(|cell| self.cells[cell as usize] = MIXED);
+        }
+    }
+
+    /// The crossings in the middle of a cell, given those at an earlier cell of its row.
+    fn code(&self, facets: Facets, cell: [usize; 3], earlier: Option<(usize, i8)>) -> i8 {
+        let middle = Vec3::from_array(cell.map(|c| c as f64 + 0.5)) * f64::from(1u32 << self.shift());
+        let q = self.steps.point(middle);
+        let at = self.steps.of(q);
+        if at.map(|s| (s >> self.shift()) as usize) != cell {
+            return SURFACE; // no number lies in the cell: its coordinates are too large for its size
+        }
+        let crossings = self.meet_all(facets, q, at, self.end_of_ray(earlier), true).crossings;
+        if CROSSINGS.contains(&crossings) { crossings as i8 } else { SURFACE }
+    }
+
+    /// The last step of a cell at which a ray ends, and the crossings there.
+    fn end_of_ray(&self, cell: Option<(usize, i8)>) -> (i32, i32) {
+        cell.map_or((-1, 0), |(cell, crossings)| {
+            ((((cell + 1) << self.shift()) - 1) as i32, i32::from(crossings))
+        })
+    }
+
+    #[inline]
+    fn cell_of(&self, [x, y, z]: [u32; 3]) -> usize {
+        let [x, y, z] = [x, y, z].map(|c| (c >> self.shift()) as usize);
+        (((z << self.bits) + y) << self.bits) + x
+    }
+
+    /// The square of the distance of a point from the bounds.
+    pub fn distance_squared(&self, q: Vec3) -> f64 {
+        let bounds = &self.bounds;
+        if bounds.is_empty() { 0.0 } else { q.distance_squared(q.max(bounds.min).min(bounds.max)) }
     }
 
     /// The cell that holds a point of the bounds.
     #[inline]
     pub fn cell(&self, q: Vec3) -> Option<usize> {
-        let last = Vec3::splat(self.side as f64 - 1.0);
-        let cell = ((q - self.origin) * self.density).min(last);
-        let index = || (cell.z as usize * self.side + cell.y as usize) * self.side + cell.x as usize;
-        self.bounds.contains(q).then(index)
+        self.bounds.contains(q).then(|| self.cell_of(self.steps.of(q)))
     }
 
     /// The crossings of the surface and the caps at a point that no triangle is near; none elsewhere.
     #[inline]
     pub fn at_a_glance(&self, q: Vec3) -> Option<i32> {
         let crossings = self.cell(q).map_or(0, |cell| self.cells[cell]);
-        (crossings != MIXED).then_some(i32::from(crossings))
+        (crossings >= FIRST_KNOWN).then_some(i32::from(crossings))
     }
 
-    /// One answer for each cell, `unknown` where there is none: `decide(center, radius)` is asked for ever smaller blocks
-    /// of cells until it answers for all of a ball around the block.
-    pub fn subdivide(&self, unknown: i8, decide: impl Fn(Vec3, f64) -> Option<i8> + Sync) -> Vec<i8> {
-        const TOP: usize = 16;
-        let block = TOP.min(self.side);
-        let blocks = self.side / block;
-        let tops = map_tasks(blocks * blocks * blocks, |top| {
-            let at = [top % blocks, top / blocks % blocks, top / (blocks * blocks)].map(|c| c * block);
-            let mut answers = vec![unknown; block * block * block];
-            self.descend(at, at, block, block, &decide, &mut answers);
-            answers
-        });
-        let mut cells = vec![unknown; self.cells.len()];
-        for (cell, answer) in cells.iter_mut().enumerate() {
-            let at = [cell % self.side, cell / self.side % self.side, cell / (self.side * self.side)];
-            let [tx, ty, tz] = at.map(|c| c / block);
-            let [x, y, z] = at.map(|c| c % block);
-            *answer = tops[(tz * blocks + ty) * blocks + tx][(z * block + y) * block + x];
-        }
-        cells
-    }
-
-    fn descend(
+    /// Answers `code >= least` where a table has a known code for the cell of a point, `outside` beyond all cells, and
+    /// gives the others to `open` by number.
+    #[inline]
+    pub fn glance(
         &self,
-        top: [usize; 3],
-        at: [usize; 3],
-        side: usize,
-        block: usize,
-        decide: &impl Fn(Vec3, f64) -> Option<i8>,
-        answers: &mut [i8],
+        points: &[Vec3],
+        (table, outside): (&[i8], i8),
+        least: i8,
+        results: &mut [bool],
+        mut open: impl FnMut(usize),
     ) {
-        let first = Vec3::from_array(at.map(|c| c as f64));
-        let half = Vec3::splat(0.5 * side as f64);
-        let center = self.origin + (first + half) / self.density;
-        let radius = (half / self.density).length() * (1.0 + MARGIN);
-        if let Some(answer) = decide(center, radius) {
-            for k in 0..side * side * side {
-                let [x, y, z] = [k % side, k / side % side, k / (side * side)];
-                let local = [at[0] - top[0] + x, at[1] - top[1] + y, at[2] - top[2] + z];
-                answers[(local[2] * block + local[1]) * block + local[0]] = answer;
+        // A point of the bounds may be rounded out of them.
+        const SLACK: f64 = 1e-3;
+        const END: f64 = (1u32 << STEP_BITS) as f64 + SLACK;
+        const BEYOND: u32 = u32::MAX;
+        let within = |c: f64| (-SLACK..=END).contains(&c);
+        for (block, (points, results)) in points.chunks(BLOCK).zip(results.chunks_mut(BLOCK)).enumerate() {
+            // Apart from each other, so that many of the look-ups, which miss the caches, wait at the same time.
+            let mut cells = [BEYOND; BLOCK];
+            for (q, cell) in points.iter().zip(&mut cells) {
+                let Vec3 { x, y, z } = self.steps.local(*q);
+                if within(x) & within(y) & within(z) {
+                    *cell = self.cell_of([x, y, z].map(step)) as u32;
+                }
             }
-        } else if side > 1 {
-            let half = side / 2;
-            for k in 0..8usize {
-                let corner = [at[0] + (k & 1) * half, at[1] + (k >> 1 & 1) * half, at[2] + (k >> 2) * half];
-                self.descend(top, corner, half, block, decide, answers);
+            let codes = cells.map(|cell| table.get(cell as usize).copied().unwrap_or(outside));
+            for (number, (code, result)) in codes.into_iter().zip(results).enumerate() {
+                *result = code >= least;
+                if code < FIRST_KNOWN {
+                    open(block * BLOCK + number);
+                }
             }
         }
     }
 
     /// Crossings of the ray from `q`, by exact predicates, and the triangles that `q` lies on.
     pub fn locate(&self, facets: Facets, q: Vec3, with_caps: bool) -> Location {
-        let mut location = Location::default();
         // Beyond the largest x the ray still crosses all that lies on its way.
         if !self.bounds.contains(q.with_x(q.x.min(self.bounds.max.x))) {
-            return location;
+            return Location::default();
         }
-        let side = self.columns_side;
-        let density = self.density * (side as f64 / self.side as f64);
-        let square = ((q - self.origin) * density).min(Vec3::splat(side as f64 - 1.0));
-        let column = square.z as usize * side + square.y as usize;
-        for &facet in &self.entries[self.starts[column] as usize..self.starts[column + 1] as usize] {
-            let corners = facets.corners(facet as usize);
-            let [a, b, c] = corners;
-            if q.x < a.x.min(b.x).min(c.x) {
+        let at = self.steps.of(q);
+        let cell = self.cell_of(at);
+        let row = &self.cells[cell >> self.bits << self.bits..cell];
+        // The cells count the caps too.
+        let earlier = if with_caps { row.iter().rposition(|c| *c >= FIRST_KNOWN) } else { None };
+        let end = self.end_of_ray(earlier.map(|place| (place, row[place])));
+        self.meet_all(facets, q, at, end, with_caps)
+    }
+
+    /// What a ray meets from `q`, in the steps `at`, to the step `last` where there are `crossings`.
+    fn meet_all(
+        &self,
+        facets: Facets,
+        q: Vec3,
+        at: [u32; 3],
+        (last, crossings): (i32, i32),
+        with_caps: bool,
+    ) -> Location {
+        let mut location = Location { crossings, touching: vec![] };
+        let ([column, row], [y, z]) = self.columns.square([at[1], at[2]]);
+        for entry in self.columns.at(column, row) {
+            let x = i32::from(entry.x[0]);
+            let is_near = (last < x) & (x <= at[0] as i32);
+            let is_below = (entry.y[0] <= y) & (y <= entry.y[1]) & (entry.z[0] <= z) & (z <= entry.z[1]);
+            if !(is_near & is_below) {
                 continue;
             }
-            let role = facets.role(facet as usize);
-            if role != Role::Cap && Aabb::around(corners).contains(q) && touches(q, corners) {
-                location.touching.push(facet);
+            let role = facets.role(entry.facet as usize);
+            let (crossing, touches) = meet(q, facets.corners(entry.facet as usize));
+            if touches && role != Role::Cap {
+                location.touching.push(entry.facet);
             }
             if role == Role::Surface || role == Role::Cap && with_caps {
-                location.crossings += crossing(q, corners);
+                location.crossings += crossing;
             }
         }
         location
@@ -273,18 +278,13 @@ impl Locator {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.cells.len() + size_of_val(&self.entries[..]) + size_of_val(&self.starts[..])
+        self.cells.len() + self.columns.bytes()
     }
 }
 
-/// The sign with which the ray from q' along −x crosses a triangle; 0 if it does not.
-#[inline]
-fn crossing(q: Vec3, corners: [Vec3; 3]) -> i32 {
-    let [a, b, c] = corners;
-    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-    if q.y < low.y || q.y > high.y || q.z < low.z || q.z > high.z || !covers(q, corners) {
-        return 0;
-    }
-    let facing = orient_yz(a, b, c);
-    if q.x > high.x || perturbed_side_of_plane(q, corners) == facing { -facing } else { 0 }
+/// The first run of cells, from `start` on, that no triangle comes near.
+fn next_run(row: &[i8], start: usize) -> Option<Range<usize>> {
+    let first = start + row[start..].iter().position(|code| *code == 0)?;
+    let length = row[first..].iter().position(|code| *code != 0).unwrap_or(row.len() - first);
+    Some(first..first + length)
 }

@@ -1,14 +1,16 @@
 //! The winding field of a soup or a cloud: one question, *how many times is this point inside?*
 //!
 //! `exact` is the definition and the oracle. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
-//! (`scan` on lattices, `locate` at scattered points) and a fraction of what closes it (`chain`, `closure`, `curtain`); a
-//! cloud's is the tree of Barill et al. 2018. `hierarchy` and `parity` are the methods that the paper compares itself with.
+//! (`scan` on lattices, `locate` over `columns` at scattered points) and a fraction of what closes it (`chain`, `closure`,
+//! `curtain`), summed on lattices by `boundary`, and spared most inside tests by `answers`; a cloud's is the tree of Barill et al. 2018.
+//! `hierarchy` and `parity` are the methods that the paper compares itself with.
 mod angle_product;
+mod answers;
 mod boundary;
 mod buckets;
-mod certificate;
 mod chain;
 mod closure;
+mod columns;
 mod curtain;
 mod dipoles;
 mod error_model;
@@ -25,6 +27,7 @@ mod scan;
 mod soup_field;
 mod surface_rule;
 mod triangles;
+mod variation;
 
 pub use crate::treecode::{Order, Scratch};
 pub(crate) use chain::{components, net_edges, weld};

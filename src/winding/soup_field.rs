@@ -1,6 +1,6 @@
 //! The field of a soup: an exact integer by crossings, and a fraction of its closure (see [`super::closure`]).
+use super::answers::{INSIDE, answers, least_of};
 use super::boundary::BoundaryField;
-use super::certificate::CapBalls;
 use super::closure::{Closure, ClosureCounts, crossings_of_caps};
 use super::curtain::{Curtain, LANES};
 use super::error_model::{COARSE_BETA, FINE_BETA, SOUP_ERROR};
@@ -12,8 +12,9 @@ use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
 use crate::bvh::WIDTH;
 use crate::data::{BLOCK, TriangleSoup};
-use crate::math::Vec3;
+use crate::math::{Vec3, area_vector};
 use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig};
+use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
 use wide::f64x4;
@@ -33,7 +34,6 @@ pub struct SoupField {
     pub(super) soup: Arc<TriangleSoup>,
     pub(super) closure: Arc<Closure>,
     pub(super) curtain: Curtain,
-    pub(super) balls: CapBalls,
     pub(super) boundary: BoundaryField,
     /// What the fraction is summed over, and the tree over it if it is worth one.
     sources: Triangles,
@@ -45,11 +45,12 @@ pub struct SoupField {
 /// What scattered points need; built when the first is asked for.
 struct Index {
     locator: Locator,
-    /// The least integer part that is inside, for each cell of the locator; `UNKNOWN` where it varies.
-    least: Vec<i8>,
+    /// What is known of each cell of the locator for the threshold 1/2 (see [`answers`]); empty where that is its crossings
+    /// or nothing.
+    answers: Vec<i8>,
+    /// Of all caps.
+    cap_area: f64,
 }
-
-const UNKNOWN: i8 = i8::MIN;
 
 /// How the fraction is summed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +69,6 @@ impl SoupField {
         let closure = Arc::new(closure);
         let sources = Triangles::of_fraction(soup.clone(), closure.clone());
         SoupField {
-            balls: CapBalls::new(&closure.caps),
             boundary: BoundaryField::new(curtain.cycles(), &closure.caps),
             tree: needs_tree.then(|| Tree::build(&sources, config)),
             soup,
@@ -108,7 +108,7 @@ impl SoupField {
     }
 
     pub fn bytes(&self) -> usize {
-        let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.least.len());
+        let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.answers.len());
         self.closure.bytes() + self.boundary.bytes() + self.tree.as_ref().map_or(0, Tree::bytes) + index
     }
 
@@ -171,23 +171,11 @@ impl SoupField {
         }
         // Caps span vertices of the soup.
         let locator = Locator::new(self.facets(), self.soup.bounds());
-        let least = if self.is_closed() || !self.is_certified_anywhere() {
-            vec![]
-        } else {
-            locator.subdivide(UNKNOWN, |center, radius| self.least_in(center, radius))
-        };
-        let _ = self.index.set(Index { locator, least });
+        let is_known = self.is_closed() || !self.is_certified_anywhere();
+        let answers = if is_known { vec![] } else { answers(self, &locator) };
+        let cap_area = self.closure.caps.iter().map(|cap| area_vector(*cap).length()).sum();
+        let _ = self.index.set(Index { locator, answers, cap_area });
         self.index.get().expect("it was set just now, here or by another thread")
-    }
-
-    /// The least integer part that is inside, if it is the same all through a ball.
-    fn least_in(&self, center: Vec3, radius: f64) -> Option<i8> {
-        if self.balls.variation(center, radius).is_infinite() {
-            return None;
-        }
-        let fraction = self.curtain.fraction(center) - f64::from(self.cap_crossings(center));
-        let least = self.balls.least_crossings(center, radius, fraction, HALF)?;
-        i8::try_from(least).ok().filter(|l| *l != UNKNOWN)
     }
 
     /// The gradient of w, which is that of the boundary chain: closed components have none.
@@ -270,17 +258,28 @@ impl SoupField {
         self.principal(q, &self.index().locator.locate(self.facets(), q, true).touching)
     }
 
-    /// Whether w ≥ `threshold` at up to [`BLOCK`] points: by crossings alone where the fraction does not matter, then by
-    /// estimates while these are farther from the threshold than their error, at last exactly.
+    /// Whether w ≥ `threshold`: by crossings alone where the fraction does not matter, elsewhere by sums.
     pub fn classify(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
         let index = self.index();
         let mut open = Vec::new();
-        for (k, (q, result)) in points.iter().zip(&mut *results).enumerate() {
-            match self.by_crossings(index, *q, threshold) {
-                Some(inside) => *result = inside,
-                None => open.push(k),
-            }
+        self.glance(index, points, threshold, results, &mut open);
+        open.retain(|k| {
+            let decided = self.by_crossings(index, points[*k], threshold);
+            results[*k] = decided.unwrap_or(false);
+            decided.is_none()
+        });
+        for some in open.chunks(BLOCK) {
+            let queries: Vec<Vec3> = some.iter().map(|k| points[*k]).collect();
+            let mut inside = [false; BLOCK];
+            self.classify_by_sums(&queries, threshold, &mut inside, scratch);
+            some.iter().zip(inside).for_each(|(k, inside)| results[*k] = inside);
         }
+    }
+
+    /// Whether w ≥ `threshold` at up to [`BLOCK`] points: by estimates while these are farther from the threshold than
+    /// their error, at last exactly.
+    fn classify_by_sums(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
+        let mut open: Vec<usize> = (0..points.len()).collect();
         if !self.is_certified_anywhere() {
             for beta in [COARSE_BETA, FINE_BETA] {
                 let near = |w: f64| (w - threshold).abs() <= SOUP_ERROR.error(beta);
@@ -303,15 +302,43 @@ impl SoupField {
         open.iter().zip(values).for_each(|(k, w)| results[*k] = w >= threshold - TIE);
     }
 
+    /// Decides what can be told from the cells of the points alone; gives the others by number.
+    fn glance(
+        &self,
+        index: &Index,
+        points: &[Vec3],
+        threshold: f64,
+        results: &mut [bool],
+        open: &mut Vec<usize>,
+    ) {
+        let is_known = threshold.abs() < 100.0 && self.is_closed();
+        let (table, outside, least) = if is_known {
+            // Where a negative integer is inside, so is all of space: points that are not finite are looked at singly.
+            let least = threshold.ceil() as i8;
+            (index.locator.cells(), if least > 0 { 0 } else { i8::MIN }, least)
+        } else if threshold == HALF && !index.answers.is_empty() {
+            (&index.answers[..], i8::MIN, INSIDE)
+        } else {
+            open.extend(0..points.len());
+            return;
+        };
+        index.locator.glance(points, (table, outside), least, results, |k| open.push(k));
+    }
+
     /// Decides without the fraction, where that can be.
     fn by_crossings(&self, index: &Index, q: Vec3, threshold: f64) -> Option<bool> {
         if !q.is_finite() {
             return Some(false);
         }
+        // So far away the caps span too small a solid angle for w to reach the threshold from 0.
+        let reach = 4.0 * PI * threshold.abs() * index.locator.distance_squared(q);
+        if self.closure.loose.is_empty() && reach > index.cap_area * (1.0 + 1e-9) {
+            return Some(threshold < 0.0);
+        }
         let least = if self.is_closed() {
             Some(threshold.ceil().clamp(-1e9, 1e9) as i32)
-        } else if threshold == HALF && !index.least.is_empty() {
-            index.locator.cell(q).map(|cell| index.least[cell]).filter(|l| *l != UNKNOWN).map(i32::from)
+        } else if threshold == HALF && !index.answers.is_empty() {
+            index.locator.cell(q).and_then(|cell| least_of(index.answers[cell]))
         } else {
             None
         };
