@@ -3,10 +3,10 @@
 //! Over a block of cells that no cap comes near, the fraction −w_C is smooth; over one that no triangle of the surface
 //! comes near, w itself is, whatever caps there are. Either is known all through the block from its exact value in the
 //! middle and a bound of its variation (see [`super::variation`]). Blocks are halved until that decides.
-use super::variation::BoundaryEdges;
 use super::curtain::LANES;
 use super::locate::{FIRST_KNOWN, Locator};
 use super::soup_field::{HALF, SoupField};
+use super::variation::BoundaryEdges;
 use crate::data::map_tasks;
 use crate::math::Vec3;
 

@@ -19,7 +19,7 @@ const SLABS_PER_REPORT: usize = 8;
 const TOP: usize = 32;
 const BLOCKS_PER_REPORT: usize = 32;
 /// How far fractions may be off where they are not needed exactly: little enough that few samples need more.
-const CLASSIFICATION_ERROR: f64 = 0.02;
+const CLASSIFICATION_ERROR: f64 = 0.1;
 /// Crossings beyond this are not told apart.
 const MOST_CROSSINGS: f64 = 32_000.0;
 
@@ -125,7 +125,8 @@ impl SoupField {
             let planes = start..(start + group).min(lattice.counts[2]);
             let least = self.least_crossings(lattice, planes.clone(), threshold, (stage, monitor))?;
             let fill = |slab: usize, counted: &Slab, bits: &mut [u8]| {
-                let least = &least[slab * SLAB_PLANES * plane - start * plane..];
+                let first = slab * SLAB_PLANES * plane;
+                let least = &least[first - start * plane..];
                 let eights = counted.crossings.chunks(8).zip(least.chunks(8));
                 for (byte, (crossings, least)) in bits.iter_mut().zip(eights) {
                     let is_inside = crossings.iter().zip(least).map(|(n, least)| *n >= i32::from(*least));
@@ -133,7 +134,7 @@ impl SoupField {
                 }
                 let decide = |index| {
                     let q = lattice.point(lattice.sample(index));
-                    (index, self.is_inside_on_surface(q, threshold))
+                    (index, self.is_inside_on_surface(q, i32::from(least[index - first]), threshold))
                 };
                 self.on_surface(lattice, slab, counted).into_iter().map(decide).collect()
             };
@@ -168,6 +169,13 @@ impl SoupField {
             let mut result = Vec::with_capacity(fractions.len());
             let mut open = Vec::new();
             for (at, row) in rows.zip(fractions.chunks(high[0] - low[0])) {
+                let (low, high) =
+                    row.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+                let decided = least(low - CLASSIFICATION_ERROR);
+                if decided == least(high + CLASSIFICATION_ERROR) {
+                    result.resize(result.len() + row.len(), decided);
+                    continue;
+                }
                 for (i, fraction) in row.iter().enumerate() {
                     let decided = least(fraction - CLASSIFICATION_ERROR);
                     if decided != least(fraction + CLASSIFICATION_ERROR) {

@@ -38,16 +38,16 @@ pub struct SoupField {
     /// What the fraction is summed over, and the tree over it if it is worth one.
     sources: Triangles,
     tree: Option<Tree<Triangles>>,
-    index: OnceLock<Index>,
+    locator: OnceLock<Locator>,
+    answers: OnceLock<Answers>,
     refined: AtomicUsize,
 }
 
-/// What scattered points need; built when the first is asked for.
-struct Index {
-    locator: Locator,
+/// What inside tests of scattered points need beside a locator; built when the first is asked for.
+struct Answers {
     /// What is known of each cell of the locator for the threshold 1/2 (see [`answers`]); empty where that is its crossings
     /// or nothing.
-    answers: Vec<i8>,
+    of_cells: Vec<i8>,
     /// Of all caps.
     cap_area: f64,
 }
@@ -75,7 +75,8 @@ impl SoupField {
             closure,
             curtain,
             sources,
-            index: OnceLock::new(),
+            locator: OnceLock::new(),
+            answers: OnceLock::new(),
             refined: AtomicUsize::new(0),
         }
     }
@@ -108,8 +109,10 @@ impl SoupField {
     }
 
     pub fn bytes(&self) -> usize {
-        let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.answers.len());
-        self.closure.bytes() + self.boundary.bytes() + self.tree.as_ref().map_or(0, Tree::bytes) + index
+        let locator = self.locator.get().map_or(0, Locator::bytes);
+        let answers = self.answers.get().map_or(0, |a| a.of_cells.len());
+        let tree = self.tree.as_ref().map_or(0, Tree::bytes);
+        self.closure.bytes() + self.boundary.bytes() + tree + locator + answers
     }
 
     pub fn nodes(&self) -> usize {
@@ -163,19 +166,27 @@ impl SoupField {
         Triangles::total(sum)
     }
 
-    /// Makes ready what scattered points need. Built outside of the cell that holds it: a thread that waited for another
-    /// to build could be the one whose help that other waits for.
-    fn index(&self) -> &Index {
-        if let Some(index) = self.index.get() {
-            return index;
+    /// Where scattered points lie. Built outside of the cell that holds it: a thread that waited for another to build could
+    /// be the one whose help that other waits for.
+    fn locator(&self) -> &Locator {
+        if let Some(locator) = self.locator.get() {
+            return locator;
         }
         // Caps span vertices of the soup.
-        let locator = Locator::new(self.facets(), self.soup.bounds());
+        let _ = self.locator.set(Locator::new(self.facets(), self.soup.bounds()));
+        self.locator.get().expect("it was set just now, here or by another thread")
+    }
+
+    /// Built as [`SoupField::locator`] is.
+    fn answers(&self) -> &Answers {
+        if let Some(answers) = self.answers.get() {
+            return answers;
+        }
         let is_known = self.is_closed() || !self.is_certified_anywhere();
-        let answers = if is_known { vec![] } else { answers(self, &locator) };
+        let of_cells = if is_known { vec![] } else { answers(self, self.locator()) };
         let cap_area = self.closure.caps.iter().map(|cap| area_vector(*cap).length()).sum();
-        let _ = self.index.set(Index { locator, answers, cap_area });
-        self.index.get().expect("it was set just now, here or by another thread")
+        let _ = self.answers.set(Answers { of_cells, cap_area });
+        self.answers.get().expect("it was set just now, here or by another thread")
     }
 
     /// The gradient of w, which is that of the boundary chain: closed components have none.
@@ -196,7 +207,8 @@ impl SoupField {
 
     /// Builds what scattered points need, if it is not there.
     pub fn prepare_points(&self) {
-        self.index();
+        self.locator();
+        self.answers();
     }
 
     /// Crossings of the caps by the ray from `q` along −x.
@@ -206,7 +218,7 @@ impl SoupField {
 
     /// The winding number at up to [`BLOCK`] points.
     pub fn values(&self, points: &[Vec3], by: FractionBy, values: &mut [f64], scratch: &mut Scratch) {
-        let index = self.index();
+        let locator = self.locator();
         if self.is_closed() {
             values.fill(0.0);
         } else {
@@ -219,12 +231,12 @@ impl SoupField {
                 continue;
             }
             if let Some(crossings) =
-                index.locator.at_a_glance(*q).filter(|_| with_caps || self.closure.caps.is_empty())
+                locator.at_a_glance(*q).filter(|_| with_caps || self.closure.caps.is_empty())
             {
                 *value += f64::from(crossings);
                 continue;
             }
-            let location = index.locator.locate(self.facets(), *q, with_caps);
+            let location = locator.locate(self.facets(), *q, with_caps);
             if location.touching.is_empty() {
                 *value += f64::from(location.crossings);
             } else {
@@ -238,7 +250,7 @@ impl SoupField {
         if !self.closure.loose.is_empty() || self.curtain.touches(q) {
             return winding_of_soup(&self.soup, q);
         }
-        let crossings = self.index().locator.locate(self.facets(), q, false).crossings;
+        let crossings = self.locator().locate(self.facets(), q, false).crossings;
         f64::from(crossings) + self.curtain.fraction(q) - share_of_touching(q, &self.corners(touching))
     }
 
@@ -246,25 +258,33 @@ impl SoupField {
         facets.iter().map(|t| self.soup.corners(*t as usize)).collect()
     }
 
-    /// Whether a point on the surface counts as inside: a region that touches it is.
-    pub(super) fn is_inside_on_surface(&self, q: Vec3, threshold: f64) -> bool {
-        let location = self.index().locator.locate(self.facets(), q, true);
-        let principal = self.principal(q, &location.touching);
-        touches_inside(q, &self.corners(&location.touching), principal, threshold)
+    /// Whether a point on the surface counts as inside: a region that touches it is. Beside it `least` is the least number
+    /// of crossings, of surface and caps, that is.
+    pub(super) fn is_inside_on_surface(&self, q: Vec3, least: i32, threshold: f64) -> bool {
+        let location = self.locator().locate(self.facets(), q, true);
+        let corners = self.corners(&location.touching);
+        let principal = if self.curtain.touches(q) {
+            winding_of_soup(&self.soup, q)
+        } else {
+            // As good as the fraction itself: with this one, too, `least` crossings and no fewer reach the threshold.
+            let fraction = threshold - f64::from(least);
+            f64::from(location.crossings) + fraction - share_of_touching(q, &corners)
+        };
+        touches_inside(q, &corners, principal, threshold)
     }
 
     /// The principal value at a sample on the surface.
     pub(super) fn principal_at(&self, q: Vec3) -> f64 {
-        self.principal(q, &self.index().locator.locate(self.facets(), q, true).touching)
+        self.principal(q, &self.locator().locate(self.facets(), q, true).touching)
     }
 
     /// Whether w ≥ `threshold`: by crossings alone where the fraction does not matter, elsewhere by sums.
     pub fn classify(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
-        let index = self.index();
+        let answers = self.answers();
         let mut open = Vec::new();
-        self.glance(index, points, threshold, results, &mut open);
+        self.glance(answers, points, threshold, results, &mut open);
         open.retain(|k| {
-            let decided = self.by_crossings(index, points[*k], threshold);
+            let decided = self.by_crossings(answers, points[*k], threshold);
             results[*k] = decided.unwrap_or(false);
             decided.is_none()
         });
@@ -305,7 +325,7 @@ impl SoupField {
     /// Decides what can be told from the cells of the points alone; gives the others by number.
     fn glance(
         &self,
-        index: &Index,
+        answers: &Answers,
         points: &[Vec3],
         threshold: f64,
         results: &mut [bool],
@@ -315,37 +335,37 @@ impl SoupField {
         let (table, outside, least) = if is_known {
             // Where a negative integer is inside, so is all of space: points that are not finite are looked at singly.
             let least = threshold.ceil() as i8;
-            (index.locator.cells(), if least > 0 { 0 } else { i8::MIN }, least)
-        } else if threshold == HALF && !index.answers.is_empty() {
-            (&index.answers[..], i8::MIN, INSIDE)
+            (self.locator().cells(), if least > 0 { 0 } else { i8::MIN }, least)
+        } else if threshold == HALF && !answers.of_cells.is_empty() {
+            (&answers.of_cells[..], i8::MIN, INSIDE)
         } else {
             open.extend(0..points.len());
             return;
         };
-        index.locator.glance(points, (table, outside), least, results, |k| open.push(k));
+        self.locator().glance(points, (table, outside), least, results, |k| open.push(k));
     }
 
     /// Decides without the fraction, where that can be.
-    fn by_crossings(&self, index: &Index, q: Vec3, threshold: f64) -> Option<bool> {
+    fn by_crossings(&self, answers: &Answers, q: Vec3, threshold: f64) -> Option<bool> {
         if !q.is_finite() {
             return Some(false);
         }
         // So far away the caps span too small a solid angle for w to reach the threshold from 0.
-        let reach = 4.0 * PI * threshold.abs() * index.locator.distance_squared(q);
-        if self.closure.loose.is_empty() && reach > index.cap_area * (1.0 + 1e-9) {
+        let reach = 4.0 * PI * threshold.abs() * self.locator().distance_squared(q);
+        if self.closure.loose.is_empty() && reach > answers.cap_area * (1.0 + 1e-9) {
             return Some(threshold < 0.0);
         }
         let least = if self.is_closed() {
             Some(threshold.ceil().clamp(-1e9, 1e9) as i32)
-        } else if threshold == HALF && !index.answers.is_empty() {
-            index.locator.cell(q).and_then(|cell| least_of(index.answers[cell]))
+        } else if threshold == HALF && !answers.of_cells.is_empty() {
+            self.locator().cell(q).and_then(|cell| least_of(answers.of_cells[cell]))
         } else {
             None
         };
-        if let Some(crossings) = index.locator.at_a_glance(q) {
+        if let Some(crossings) = self.locator().at_a_glance(q) {
             return least.map(|least| crossings >= least); // near no triangle
         }
-        let location = index.locator.locate(self.facets(), q, true);
+        let location = self.locator().locate(self.facets(), q, true);
         if !location.touching.is_empty() {
             let principal = self.principal(q, &location.touching);
             return Some(touches_inside(q, &self.corners(&location.touching), principal, threshold));

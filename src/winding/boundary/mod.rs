@@ -97,14 +97,16 @@ impl Need {
         }
     }
 
-    /// Whether values known to within `spread` are good enough.
+    /// Whether the values of a block, known to within `spread`, are good enough.
     fn is_met(self, values: &[f64], spread: f64) -> bool {
         match self {
             Need::Value { tolerance } => spread <= 1e-3 * tolerance,
             Need::Side { threshold, error } => {
-                let least = |fraction: f64| (threshold - fraction).ceil();
                 let spread = spread + error;
-                values.iter().all(|v| least(v - spread) == least(v + spread))
+                let (low, high) = values
+                    .iter()
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+                (threshold - low + spread).ceil() == (threshold - high - spread).ceil()
             }
         }
     }
