@@ -271,10 +271,10 @@ impl WindingField {
             let by = soup.fraction_by(self.expansion_for(accuracy));
             return Ok(Grid { lattice: *lattice, values: soup.lattice_values(lattice, by, monitor)? });
         }
+        let mut values = zeroed(lattice.len())?;
         if matches!(self.engine, Engine::Soup(_)) {
             self.of_paper();
         }
-        let mut values = zeroed(lattice.len())?;
         let block = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
             self.at_block(points, results, accuracy, scratch);
         };
@@ -360,9 +360,9 @@ impl WindingField {
             if soup.is_certified() {
                 return soup.lattice_bits(lattice, threshold, monitor);
             }
-            soup.prepare_points();
         }
         let mut bits = zeroed(lattice.len().div_ceil(8))?;
+        self.prepare_points();
         let block = |points: &[Vec3], results: &mut [bool], scratch: &mut Scratch| {
             self.exceeds_block(points, threshold, results, scratch);
         };

@@ -7,8 +7,12 @@ use crate::data::{Cancelled, Lattice, Monitor, for_each_lattice_block, map_items
 use crate::math::Vec3;
 use crate::treecode::Scratch;
 
-/// Slabs between two reports to the monitor.
-const SLABS_PER_REPORT: usize = 8;
+/// Slabs between two reports to the monitor, all in memory at once: fewer where they would take more than
+/// [`BYTES_AT_ONCE`], down to the lower number.
+const SLABS_PER_REPORT: [usize; 2] = [4, 8];
+const BYTES_AT_ONCE: usize = 76_000_000;
+/// Crossings of the surface and of the caps, and whether it is inside.
+const BYTES_PER_SAMPLE: usize = 2 * size_of::<i32>() + 1;
 /// Samples along x and y of the blocks with which subdivision begins.
 const TOP: usize = 32;
 /// Blocks of up to this many samples are not divided further, but summed.
@@ -131,10 +135,13 @@ fn for_each_slab<T: Send, R: Send>(
     stage: &str,
     monitor: &dyn Monitor,
 ) -> Result<Vec<R>, Cancelled> {
-    let part = (lattice.counts[0] * lattice.counts[1] * per_plane).max(1);
+    let plane = (lattice.counts[0] * lattice.counts[1]).max(1);
+    let part = plane * per_plane;
+    let [fewest, most] = SLABS_PER_REPORT;
+    let at_once = (BYTES_AT_ONCE / (BYTES_PER_SAMPLE * SLAB_PLANES * plane)).clamp(fewest, most);
     let mut found = Vec::new();
-    for (run, parts) in output.chunks_mut(SLABS_PER_REPORT * part).enumerate() {
-        let first = run * SLABS_PER_REPORT;
+    for (run, parts) in output.chunks_mut(at_once * part).enumerate() {
+        let first = run * at_once;
         monitor.report(first as f64 / scan.slabs() as f64, stage)?;
         let of_run = map_parts(parts, part, |slab, part| {
             let mut counted = Slab::default();
