@@ -1,6 +1,6 @@
 //! The crate's parallel loops. All of them run through one instance of rayon's, on a closure behind a reference: each
 //! instance is some 5 KiB of machine code, and a browser downloads them all. So a task is to be worth at least some
-//! microseconds. The WebAssembly build without threads does without rayon, which is 15 KiB of it after compression.
+//! microseconds. The WebAssembly build without threads does without rayon, which would be a twentieth of it.
 use std::sync::Mutex;
 
 /// Items of [`map_items`] that make a task.

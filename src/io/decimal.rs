@@ -1,5 +1,5 @@
-//! Decimal text to the nearest `f64`, as `f64::from_str` does it. That one brings 10 KiB of powers of five, which no
-//! compression makes smaller: a tenth of the single-threaded download when last measured.
+//! Decimal text to the nearest `f64`, as `f64::from_str` does it. That one brings 10 KiB of powers of five to the download
+//! for WebAssembly, which no compression makes smaller.
 //!
 //! Nearly every number is decided by a quotient or product of twice the precision; the few that lie too close to the
 //! middle of two floats, or to the ends of the range, by whole numbers of any length.
