@@ -356,10 +356,10 @@ impl WindingField {
         threshold: f64,
         monitor: &dyn Monitor,
     ) -> Result<Vec<u8>, FieldError> {
-        if let Engine::Soup(soup) = &self.engine {
-            if soup.is_certified() {
-                return soup.lattice_bits(lattice, threshold, monitor);
-            }
+        if let Engine::Soup(soup) = &self.engine
+            && soup.is_certified()
+        {
+            return soup.lattice_bits(lattice, threshold, monitor);
         }
         let mut bits = zeroed(lattice.len().div_ceil(8))?;
         self.prepare_points();
