@@ -1,8 +1,7 @@
 //! Linear build: sort along the Morton curve, then split where the highest bit of the code changes.
 use super::{Bvh, Child, Node, WIDTH, morton_code};
-use crate::data::{map_items, set_each};
+use crate::data::{map_items, set_each, sort_keyed};
 use crate::math::Aabb;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Nodes that one task fits boxes to.
@@ -17,7 +16,7 @@ impl Bvh {
         let bounds = Aabb::around(boxes.iter().map(|b| b.center()));
         let code = |item: usize| (morton_code(boxes[item].center(), &bounds), item as u32);
         let mut sorted: Vec<(u64, u32)> = map_items(boxes.len(), code);
-        sorted.par_sort_unstable();
+        sort_keyed(&mut sorted);
         let (codes, items): (Vec<u64>, Vec<u32>) = sorted.into_iter().unzip();
         let (mut nodes, levels) = split_levels(&codes, leaf_size);
         fit_boxes(&mut nodes, &levels, &items, boxes);

@@ -2,9 +2,11 @@
 //! looked for comes in as closures.
 mod build;
 mod morton;
+mod nearest;
 
 pub use build::cut_at_highest_bit;
 pub use morton::morton_code;
+pub use nearest::Nearest;
 
 use crate::math::Aabb;
 use std::ops::Range;

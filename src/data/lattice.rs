@@ -84,9 +84,9 @@ impl Lattice {
         Ok(Lattice { origin: bounds.min + 0.5 * spacing, spacing, counts })
     }
 
-    /// Number of samples.
+    /// Number of samples; `usize::MAX` if they are more.
     pub fn len(&self) -> usize {
-        self.counts.iter().product()
+        self.counts.iter().copied().fold(1, usize::saturating_mul)
     }
 
     pub fn is_empty(&self) -> bool {

@@ -16,8 +16,8 @@ pub use lattice::{Grid, Lattice, LatticeError};
 pub use layers::{Layer, Polygon, Ring, signed_area};
 pub use mesh::SurfaceMesh;
 pub use monitor::{Cancelled, Monitor, Silent};
-pub(crate) use pairs::sorted_pairs;
-pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each};
+pub(crate) use pairs::{ascending, sorted_pairs};
+pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each, sort_keyed, threads};
 pub use soup::{SoupError, TriangleSoup};
 pub use warning::{Warning, WarningKind};
 

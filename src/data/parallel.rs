@@ -1,14 +1,49 @@
 //! The crate's parallel loops. All of them run through one instance of rayon's, on a closure behind a reference: each
 //! instance is some 5 KiB of machine code, and a browser downloads them all. So a task is to be worth at least some
-//! microseconds.
-use rayon::prelude::*;
+//! microseconds. The WebAssembly build without threads does without rayon, which would be a twentieth of it.
 use std::sync::Mutex;
 
 /// Items of [`map_items`] that make a task.
 const ITEMS_PER_TASK: usize = 1024;
 
-fn run(tasks: usize, task: &(dyn Fn(usize) + Sync)) {
-    (0..tasks).into_par_iter().for_each(task);
+#[cfg(any(not(target_arch = "wasm32"), target_feature = "atomics"))]
+mod backend {
+    use rayon::prelude::*;
+
+    pub fn run(tasks: usize, task: &(dyn Fn(usize) + Sync)) {
+        (0..tasks).into_par_iter().for_each(task);
+    }
+
+    pub fn threads() -> usize {
+        rayon::current_num_threads()
+    }
+
+    pub fn sort(values: &mut [(u64, u32)]) {
+        values.par_sort_unstable();
+    }
+}
+
+#[cfg(all(target_arch = "wasm32", not(target_feature = "atomics")))]
+mod backend {
+    pub fn run(tasks: usize, task: &(dyn Fn(usize) + Sync)) {
+        (0..tasks).for_each(task);
+    }
+
+    pub fn threads() -> usize {
+        1
+    }
+
+    pub fn sort(values: &mut [(u64, u32)]) {
+        values.sort_unstable();
+    }
+}
+
+use backend::run;
+pub use backend::threads;
+
+/// Sorts by keys, and by numbers where keys are equal, in parallel.
+pub fn sort_keyed(values: &mut [(u64, u32)]) {
+    backend::sort(values);
 }
 
 /// What `task` gives for each number below `tasks`, in order; run in parallel.

@@ -1,33 +1,33 @@
+use crate::bvh::{Bvh, Nearest};
 use crate::data::{Cancelled, Monitor, fill_in_blocks};
-use crate::math::Vec3;
-use kiddo::{ImmutableKdTree, SquaredEuclidean};
-use std::num::NonZero;
+use crate::math::{Aabb, Vec3};
+
+/// Most points in a leaf of the tree that finds them.
+const LEAF_SIZE: usize = 8;
 
 /// The nearest neighbours of every point, without the point itself, nearest first.
 pub(super) struct Neighbourhoods(Vec<Vec<u32>>);
 
 impl Neighbourhoods {
-    /// Finds the `count` nearest neighbours of each point; fewer where there are not as many points.
+    /// Finds the `count` nearest neighbours of each point, equally near ones in the order of their numbers; fewer where
+    /// there are not as many points.
     pub fn find(points: &[Vec3], count: usize, monitor: &dyn Monitor) -> Result<Neighbourhoods, Cancelled> {
         monitor.report(0.0, "neighbours")?;
-        let coordinates: Vec<[f64; 3]> = points.iter().map(|p| p.to_array()).collect();
-        let tree = ImmutableKdTree::new_from_slice(&coordinates).expect("the points are finite");
-        let wanted = NonZero::new(count + 1).expect("one more than a count is not zero");
+        let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
+        let bvh = Bvh::build(&boxes, LEAF_SIZE);
+        drop(boxes);
+        // In the tree's order: what is looked for together lies together.
+        let ordered: Vec<Vec3> = bvh.items().iter().map(|&i| points[i as usize]).collect();
         let mut lists = vec![Vec::new(); points.len()];
-        let neighbours = |i: usize, (): &mut ()| {
-            let mut found: Vec<(f64, u32)> = (tree.query(&coordinates[i]))
-                .nearest_n::<SquaredEuclidean<f64>>(wanted)
-                .execute()
-                .iter()
-                .map(|near| (near.distance, near.item))
-                .filter(|near| near.1 != i as u32)
-                .collect();
-            // Equal distances in a fixed order, whatever the library's.
-            found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            found.into_iter().take(count).map(|near| near.1).collect()
+        let neighbours = |place: usize, nearest: &mut Nearest| {
+            let own = bvh.items()[place];
+            let found = nearest.find(&bvh, &ordered, place, count + 1);
+            found.iter().map(|near| near.1).filter(|near| *near != own).take(count).collect()
         };
         fill_in_blocks(&mut lists, neighbours, "neighbours", monitor)?;
-        Ok(Neighbourhoods(lists))
+        let mut by_point = vec![Vec::new(); points.len()];
+        bvh.items().iter().zip(lists).for_each(|(&point, list)| by_point[point as usize] = list);
+        Ok(Neighbourhoods(by_point))
     }
 
     /// Neighbours of `point`, nearest first.

@@ -1,7 +1,7 @@
 //! Consistent orientation of normals by propagation along a minimum spanning tree of the neighbour graph, whose edges
 //! cost 1 − |nᵢ · nⱼ| (Hoppe et al. 1992, *Surface reconstruction from unorganized points*, section 3.3).
 use super::neighbours::Neighbourhoods;
-use crate::data::{Cancelled, Monitor, sorted_pairs};
+use crate::data::{Cancelled, Monitor, ascending, sorted_pairs};
 use crate::math::Vec3;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -18,10 +18,7 @@ pub(super) fn propagate(
     let graph = symmetric_graph(points.len(), neighbourhoods);
     let mut reached = vec![false; points.len()];
     let mut done = 0;
-    let mut from_the_top: Vec<u32> = (0..points.len() as u32).collect();
-    from_the_top
-        .sort_unstable_by(|&a, &b| points[b as usize].z.total_cmp(&points[a as usize].z).then(a.cmp(&b)));
-    for seed in from_the_top {
+    for seed in ascending(points.iter().map(|p| -p.z)) {
         if reached[seed as usize] {
             continue;
         }

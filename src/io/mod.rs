@@ -3,6 +3,7 @@
 //! Files come as they are found. What is damaged in part gives what is readable, with [`Warning`]s; what is
 //! damaged in whole gives a [`ReadError`]. No input makes a reader panic, and none makes it take memory beyond
 //! a small multiple of the input's size (of the unpacked size for 3MF, itself bounded).
+mod decimal;
 mod error;
 mod obj;
 mod off;

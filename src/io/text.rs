@@ -1,6 +1,6 @@
 //! Tokens of text files, with the line they stand in.
 use super::error::quote;
-use super::{Format, Location, ReadError};
+use super::{Format, Location, ReadError, decimal};
 
 /// How a format separates its tokens, beside blanks.
 pub(super) struct Syntax {
@@ -45,14 +45,13 @@ pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
 
 /// The finite or non-finite number a token spells.
 pub(super) fn number(token: &[u8]) -> Option<f64> {
-    let text = std::str::from_utf8(token).ok()?;
-    text.parse().ok().or_else(|| spells_nan(text).then_some(f64::NAN))
+    decimal::parse(token).or_else(|| spells_nan(token).then_some(f64::NAN))
 }
 
 /// Whether a C library printed this for NaN or infinity: `-nan(ind)`, `1.#QNAN`, `-1.#INF`.
-fn spells_nan(text: &str) -> bool {
-    let text = text.trim_start_matches(['-', '+']);
-    text.starts_with("nan(") || text.starts_with("1.#")
+fn spells_nan(text: &[u8]) -> bool {
+    let signs = text.iter().take_while(|byte| matches!(byte, b'-' | b'+')).count();
+    text[signs..].starts_with(b"nan(") || text[signs..].starts_with(b"1.#")
 }
 
 impl<'a> Tokens<'a> {

@@ -2,7 +2,7 @@
 use super::crossing;
 use super::cube_cases::{EDGES, TRIANGLES};
 use super::seeds::Cell;
-use crate::data::{Cancelled, Monitor, SurfaceMesh, fill_in_blocks};
+use crate::data::{Cancelled, Monitor, SurfaceMesh, fill_in_blocks, sort_keyed};
 use crate::math::Vec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::marker::PhantomData;
@@ -116,14 +116,14 @@ impl<S: Default, F: Fn(Vec3, &mut S) -> bool + Sync> Continuation<'_, F, S> {
             for &cell in &frontier {
                 let case = self.case(cell);
                 if case != 0 && case != u8::MAX {
-                    active.push((cell, case));
+                    active.push((key(cell), u32::from(case)));
                     next.extend(neighbours_crossed(cell, case));
                 }
             }
             frontier = next;
         }
-        active.sort_unstable_by_key(|&(cell, _)| key(cell));
-        Ok(active)
+        sort_keyed(&mut active);
+        Ok(active.into_iter().map(|(key, case)| (cell_of(key), case as u8)).collect())
     }
 
     fn case(&self, cell: Cell) -> u8 {

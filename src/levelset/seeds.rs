@@ -1,4 +1,4 @@
-use crate::data::Shape;
+use crate::data::{Shape, sort_keyed};
 use crate::math::Vec3;
 
 /// Integer coordinates of a cell: it spans `origin + spacing * cell` to `origin + spacing * (cell + 1)`.
@@ -44,9 +44,14 @@ pub fn cells_of_shape(shape: &Shape, origin: Vec3, spacing: Vec3) -> Vec<Cell> {
             }
         }
     }
-    cells.sort_unstable();
-    cells.dedup();
-    cells
+    // Flipping the sign bit makes the order of unsigned numbers that of signed ones.
+    let unsigned = |c: i32| c as u32 ^ 1 << 31;
+    let signed = |c: u32| (c ^ 1 << 31) as i32;
+    let pack = |[x, y, z]: Cell| (u64::from(unsigned(x)) << 32 | u64::from(unsigned(y)), unsigned(z));
+    let mut packed: Vec<(u64, u32)> = cells.into_iter().map(pack).collect();
+    sort_keyed(&mut packed);
+    packed.dedup();
+    packed.into_iter().map(|(xy, z)| [(xy >> 32) as u32, xy as u32, z].map(signed)).collect()
 }
 
 #[cfg(test)]

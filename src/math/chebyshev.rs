@@ -12,7 +12,7 @@ impl Nodes {
     /// The `count` Chebyshev points of the first kind of an interval.
     pub fn chebyshev(center: f64, half: f64, count: usize) -> Nodes {
         let angle = |k: usize| PI * (k as f64 + 0.5) / count as f64;
-        let sign = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         Nodes {
             points: (0..count).map(|k| center + half * libm::cos(angle(k))).collect(),
             weights: (0..count).map(|k| sign(k) * libm::sin(angle(k))).collect(),
@@ -24,16 +24,16 @@ impl Nodes {
         Nodes { points: points.to_vec(), weights: vec![1.0; points.len()] }
     }
 
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.points.len()
     }
 
     /// What to multiply the values at the nodes with for those at `targets`: a row for each target.
     pub fn matrix(&self, targets: &[f64]) -> Vec<f64> {
-        let mut matrix = Vec::with_capacity(targets.len() * self.len());
+        let mut matrix = Vec::with_capacity(targets.len() * self.count());
         for t in targets {
             if let Some(same) = self.points.iter().position(|p| p == t) {
-                matrix.extend((0..self.len()).map(|k| if k == same { 1.0 } else { 0.0 }));
+                matrix.extend((0..self.count()).map(|k| if k == same { 1.0 } else { 0.0 }));
                 continue;
             }
             let first = matrix.len();

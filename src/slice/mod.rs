@@ -7,7 +7,7 @@ mod plan;
 pub use heat_map::heat_map;
 pub use plan::{LayerPlan, PlanError, SampleAt, Span};
 
-use crate::data::{Cancelled, LatticeError, Layer, Monitor, map_tasks};
+use crate::data::{Cancelled, LatticeError, Layer, Monitor, map_tasks, threads};
 use crate::winding::WindingField;
 
 /// How contours are traced.
@@ -51,7 +51,7 @@ pub fn slice(
     let spans = plan.spans(field.bounds().min.z, field.bounds().max.z)?;
     let mut layers = Vec::with_capacity(spans.len());
     // Two layers for each thread between reports: enough to keep all busy, soon enough to cancel.
-    for block in spans.chunks(2 * rayon::current_num_threads()) {
+    for block in spans.chunks(2 * threads()) {
         monitor.report(layers.len() as f64 / spans.len() as f64, "layers")?;
         layers.extend(map_tasks(block.len(), |k| slicer.layer(&block[k])));
     }

@@ -1,4 +1,4 @@
-use crate::data::{Polygon, Ring, signed_area};
+use crate::data::{Polygon, Ring, ascending, signed_area};
 use crate::math::Vec2;
 
 /// Sorts rings that do not cross into polygons: counter-clockwise ones are outer, each clockwise one is a hole of the
@@ -7,9 +7,10 @@ pub(super) fn polygons(rings: Vec<Ring>) -> Vec<Polygon> {
     let (mut outer, holes): (Vec<_>, Vec<_>) =
         rings.into_iter().map(|ring| (signed_area(&ring), ring)).partition(|(area, _)| *area > 0.0);
     // Smallest first: the first one around a hole is the right one. Ties keep the order of tracing.
-    outer.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut polygons: Vec<Polygon> =
-        outer.into_iter().map(|(_, outer)| Polygon { outer, holes: Vec::new() }).collect();
+    let order = ascending(outer.iter().map(|(area, _)| *area));
+    let mut polygons: Vec<Polygon> = (order.into_iter())
+        .map(|place| Polygon { outer: std::mem::take(&mut outer[place as usize].1), holes: Vec::new() })
+        .collect();
     for (area, hole) in holes {
         if let Some(around) =
             polygons.iter_mut().find(|p| signed_area(&p.outer) > -area && surrounds(&p.outer, hole[0]))

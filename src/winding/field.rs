@@ -277,10 +277,10 @@ impl WindingField {
                 values: soup.lattice_values(lattice, tolerance, by, monitor)?,
             });
         }
+        let mut values = zeroed(lattice.len())?;
         if matches!(self.engine, Engine::Soup(_)) {
             self.of_paper();
         }
-        let mut values = zeroed(lattice.len())?;
         let block = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
             self.at_block(points, results, accuracy, scratch);
         };
@@ -362,13 +362,13 @@ impl WindingField {
         threshold: f64,
         monitor: &dyn Monitor,
     ) -> Result<Vec<u8>, FieldError> {
-        if let Engine::Soup(soup) = &self.engine {
-            if soup.is_certified() {
-                return soup.lattice_bits(lattice, threshold, monitor);
-            }
-            soup.prepare_points();
+        if let Engine::Soup(soup) = &self.engine
+            && soup.is_certified()
+        {
+            return soup.lattice_bits(lattice, threshold, monitor);
         }
         let mut bits = zeroed(lattice.len().div_ceil(8))?;
+        self.prepare_points();
         let block = |points: &[Vec3], results: &mut [bool], scratch: &mut Scratch| {
             self.exceeds_block(points, threshold, results, scratch);
         };

@@ -11,10 +11,13 @@ use crate::math::Vec3;
 use crate::treecode::Scratch;
 use std::ops::Range;
 
-/// Planes that are classified together: slabs and blocks of them, a whole number of each.
+/// Planes that are classified together are a whole number of slabs and of blocks; as many as this memory for them allows.
 const GROUP_PLANES: usize = 32;
-/// Slabs between two reports to the monitor.
-const SLABS_PER_REPORT: usize = 8;
+const BYTES_OF_GROUP: usize = 17_000_000;
+/// Slabs between two reports to the monitor, all in memory at once: fewer where they would take more than
+/// [`BYTES_AT_ONCE`], down to the lower number.
+const SLABS_PER_REPORT: [usize; 2] = [4, 16];
+const BYTES_AT_ONCE: usize = 34_000_000;
 /// Most samples along each axis of a block of fractions.
 const TOP: usize = 32;
 const BLOCKS_PER_REPORT: usize = 32;
@@ -118,7 +121,8 @@ impl SoupField {
         let scan = Scan::new(self.facets(), 0..self.facets().len(), lattice);
         let plane = lattice.counts[0] * lattice.counts[1];
         let mut touching = Vec::new();
-        let group = GROUP_PLANES;
+        let groups = BYTES_OF_GROUP / (size_of::<i16>() * GROUP_PLANES * plane.max(1));
+        let group = GROUP_PLANES * groups.max(1);
         for (start, bits) in
             (0..lattice.counts[2]).step_by(group).zip(bits.chunks_mut((plane * group / 8).max(1)))
         {
@@ -213,9 +217,12 @@ fn for_each_slab<T: Send, R: Send>(
     monitor: &dyn Monitor,
 ) -> Result<Vec<R>, Cancelled> {
     let part = (scan.samples_of_plane() * per_plane).max(1);
+    let [fewest, most] = SLABS_PER_REPORT;
+    let bytes = size_of::<i32>() * SLAB_PLANES * scan.samples_of_plane().max(1);
+    let at_once = (BYTES_AT_ONCE / bytes).clamp(fewest, most);
     let mut found = Vec::new();
-    for (run, parts) in output.chunks_mut(SLABS_PER_REPORT * part).enumerate() {
-        let first = planes.start / SLAB_PLANES + run * SLABS_PER_REPORT;
+    for (run, parts) in output.chunks_mut(at_once * part).enumerate() {
+        let first = planes.start / SLAB_PLANES + run * at_once;
         monitor.report(first as f64 / scan.slabs() as f64, stage)?;
         let of_run = map_parts(parts, part, |slab, part| {
             let mut counted = Slab::default();

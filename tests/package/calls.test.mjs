@@ -70,6 +70,9 @@ for (const [name, start] of Object.entries(entries)) {
     await fails(() => soup.heatMap({ z: NaN }), 'InvalidArgument');
     await fails(() => soup.export('docx'), 'InvalidArgument');
     await fails(() => soup.voxelize({ resolution: 100000 }), 'OutOfMemory');
+    await fails(() => soup.voxelize({ counts: [100000, 100000, 100000], format: 'bits' }), 'OutOfMemory', { bytes: 1e15 });
+    await fails(() => soup.surface({ resolution: 100000 }), 'OutOfMemory');
+    await fails(() => soup.heatMap({ z: 0.5, resolution: 1e6 }), 'OutOfMemory');
     assert.deepEqual(await soup.contains(new Float64Array([0.5, 0.5, 0.5])), new Uint8Array([1]), 'the engine goes on');
     fw.dispose();
   });

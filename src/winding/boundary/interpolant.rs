@@ -15,7 +15,7 @@ impl Interpolant {
     /// Values at the points of a grid, x fastest.
     pub fn at(&self, grid: &Grid) -> Vec<f64> {
         let [x, y, z] = [0, 1, 2].map(|axis| self.nodes[axis].matrix(&grid[axis]));
-        let [nx, ny, nz] = [0, 1, 2].map(|axis| self.nodes[axis].len());
+        let [nx, ny, nz] = [0, 1, 2].map(|axis| self.nodes[axis].count());
         let rows = ny * nz;
         let along_x = contract_rows(&self.values, [rows, nx], &x, grid[0].len());
         let along_y = contract(&along_x, [nz, ny, grid[0].len()], &y, grid[1].len());
@@ -77,8 +77,8 @@ fn contract(values: &[f64], [outer, from, inner]: [usize; 3], matrix: &[f64], to
 /// a distance D from it, the field is at most 1 / 4πD² for each unit of area.
 pub fn interpolation_error(area: f64, bounds: &Aabb, block: &Aabb, nodes: [Option<usize>; 3]) -> f64 {
     let (mut error, mut growth) = (0.0, 1.0);
-    for axis in 0..3 {
-        let Some(count) = nodes[axis] else { continue };
+    for (axis, count) in nodes.into_iter().enumerate() {
+        let Some(count) = count else { continue };
         let half = 0.5 * (block.max[axis] - block.min[axis]);
         let to_face = |coordinate: f64| {
             let mut face = *block;

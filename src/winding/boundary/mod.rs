@@ -158,7 +158,7 @@ impl Block<'_> {
         }
         let mut plan: Option<Plan> = None;
         if !loops.is_empty() {
-            let least = from.map_or([0; 3], |f| [0, 1, 2].map(|axis| f.nodes[axis].len()));
+            let least = from.map_or([0; 3], |f| [0, 1, 2].map(|axis| f.nodes[axis].count()));
             for count in NODES {
                 let nodes = counts.map(|c| (c > count).then_some(count));
                 let keeps = |axis: usize| nodes[axis].is_none_or(|n| n >= least[axis]);

@@ -1,0 +1,91 @@
+use super::{Bvh, Child, WIDTH};
+use crate::math::Vec3;
+
+/// The search for what lies nearest to a point, with scratch space that many searches share.
+#[derive(Default)]
+pub struct Nearest {
+    /// Squared distances and item numbers, ascending.
+    found: Vec<(f64, u32)>,
+    /// What is still to be looked at, with the least squared distance of anything in it.
+    open: Vec<(f64, Child)>,
+}
+
+impl Nearest {
+    /// The `count` points nearest to that at `place`, itself among them, nearest first and equally near ones in the order
+    /// of their item numbers; fewer where there are not as many. `points` are those the hierarchy was built over, in the
+    /// order of its items.
+    pub fn find(&mut self, bvh: &Bvh, points: &[Vec3], place: usize, count: usize) -> &[(f64, u32)] {
+        let center = points[place];
+        let distance = |place: usize| (points[place].distance_squared(center), bvh.items()[place]);
+        // The points around it on the curve bound from the start how far to look.
+        let first = place.saturating_sub(count / 2).min(points.len().saturating_sub(count));
+        let around = first..points.len().min(first + count);
+        let is_bounded = around.len() == count;
+        let start = around.map(|place| distance(place).0).fold(0.0, f64::max);
+        let mut limit = (if is_bounded { start } else { f64::INFINITY }, u32::MAX);
+        self.found.clear();
+        self.open.clear();
+        self.open.push((0.0, Child::Inner(0)));
+        while let Some((least, child)) = self.open.pop() {
+            if least > limit.0 {
+                continue;
+            }
+            if let Child::Inner(node) = child {
+                let node = &bvh.nodes()[node as usize];
+                let before = self.open.len();
+                for k in 0..WIDTH {
+                    let bounds = &node.bounds[k];
+                    let offset = (bounds.min - center).max(center - bounds.max).max(Vec3::ZERO);
+                    let least = offset.length_squared();
+                    if node.children[k] != Child::Empty && least <= limit.0 {
+                        // The nearest is taken next.
+                        let behind = self.open[before..].partition_point(|other| other.0 > least);
+                        self.open.insert(before + behind, (least, node.children[k]));
+                    }
+                }
+                continue;
+            }
+            for near in bvh.places(child).map(distance) {
+                if near > limit {
+                    continue;
+                }
+                let place = self.found.partition_point(|other| *other < near);
+                self.found.truncate(count - 1);
+                self.found.insert(place, near);
+                if self.found.len() == count {
+                    limit = self.found[count - 1];
+                }
+            }
+        }
+        &self.found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Aabb;
+
+    #[test]
+    fn those_found_are_those_of_a_search_through_all() {
+        let on_a_grid = |i: u32| Vec3::new(f64::from(i * 7 % 9), f64::from(i * 5 % 7), f64::from(i * 3 % 5));
+        let scattered = |i: u32| Vec3::from_array([0.37, 1.73, 2.91].map(|s| (f64::from(i) * s).sin()));
+        for (total, points) in [(1, true), (7, false), (300, true), (700, false)] {
+            let points: Vec<Vec3> =
+                (0..total).map(|i| if points { on_a_grid(i) } else { scattered(i) }).collect();
+            let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
+            let bvh = Bvh::build(&boxes, 4);
+            let ordered: Vec<Vec3> = bvh.items().iter().map(|&i| points[i as usize]).collect();
+            let mut nearest = Nearest::default();
+            for place in 0..points.len() {
+                let mut all: Vec<(f64, u32)> =
+                    (0..total).map(|i| (points[i as usize].distance_squared(ordered[place]), i)).collect();
+                all.sort_by(|a, b| a.partial_cmp(b).unwrap());
+                for count in [1, 2, 21] {
+                    let expected = &all[..all.len().min(count)];
+                    assert_eq!(nearest.find(&bvh, &ordered, place, count), expected);
+                }
+            }
+        }
+    }
+}
