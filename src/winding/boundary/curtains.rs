@@ -4,7 +4,7 @@
 //! from the block, close it as its caps do, and no ray from the block in the other direction meets either. So the winding
 //! number of the caps is the sum of the curtains' solid angles over 4π. With a, b the ends of an edge relative to a query,
 //! u the axis, s = |a| + a·u > 0 and ζ = the other two coordinates as a complex number, the half solid angle is the argument
-//! of s_a s_b + ζ̄_a ζ_b (as in [`super::super::curtain`], where it may cancel; here its real part is positive). Along a row
+//! of s_a s_b + ζ̄_a ζ_b (as in [`crate::winding::curtain`], where it may cancel; here its real part is positive). Along a row
 //! of queries parallel to u, ζ̄_a ζ_b is constant: a square root and a complex product are left for each edge and query.
 //!
 //! Arguments are summed as one product, with the number of times that it went around.

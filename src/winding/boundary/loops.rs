@@ -16,7 +16,7 @@ pub struct Loop {
     pub area: f64,
 }
 
-/// Cuts the boundary cycles of a closure, whose caps are in the order that [`super::super::closure::cap`] gives them. Caps
+/// Cuts the boundary cycles of a closure, whose caps are in the order that [`crate::winding::closure::cap`] gives them. Caps
 /// without area, as T-junctions have, contribute nothing anywhere and are left out.
 pub fn loops(cycles: &[Vec<Vec3>], caps: &[[Vec3; 3]]) -> Vec<Loop> {
     let mut loops = Vec::new();

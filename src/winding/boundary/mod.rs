@@ -334,7 +334,7 @@ mod tests {
         };
         let cycle: Vec<Vec3> = (0..count).map(at).collect();
         let mut caps = Vec::new();
-        super::super::closure::cap(&cycle, 0, count - 1, &mut caps);
+        crate::winding::closure::cap(&cycle, 0, count - 1, &mut caps);
         (vec![cycle], caps)
     }
 
@@ -394,7 +394,7 @@ mod tests {
             })
             .collect();
         let mut caps = Vec::new();
-        super::super::closure::cap(&rim, 0, 63, &mut caps);
+        crate::winding::closure::cap(&rim, 0, 63, &mut caps);
         let field = BoundaryField::new(&[rim], &caps);
         for counts in [[9, 25, 25], [1, 25, 25], [9, 1, 25], [9, 25, 1]] {
             let spacing = Vec3::from_array(counts.map(|c| if c == 1 { 0.0 } else { 0.0625 }));
