@@ -1,8 +1,7 @@
 //! Linear build: sort along the Morton curve, then split where the highest bit of the code changes.
-use super::{Bvh, Child, Node, WIDTH, morton_code};
+use super::{Bvh, Child, Node, WIDTH, morton_code, sorted_codes};
 use crate::data::{map_items, set_each};
 use crate::math::Aabb;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Nodes that one task fits boxes to.
@@ -15,10 +14,8 @@ impl Bvh {
     pub fn build(boxes: &[Aabb], leaf_size: usize) -> Bvh {
         let leaf_size = leaf_size.max(1);
         let bounds = Aabb::around(boxes.iter().map(|b| b.center()));
-        let code = |item: usize| (morton_code(boxes[item].center(), &bounds), item as u32);
-        let mut sorted: Vec<(u64, u32)> = map_items(boxes.len(), code);
-        sorted.par_sort_unstable();
-        let (codes, items): (Vec<u64>, Vec<u32>) = sorted.into_iter().unzip();
+        let (codes, items) =
+            sorted_codes(map_items(boxes.len(), |item| morton_code(boxes[item].center(), &bounds)));
         let (mut nodes, levels) = split_levels(&codes, leaf_size);
         fit_boxes(&mut nodes, &levels, &items, boxes);
         Bvh { nodes, levels, items }

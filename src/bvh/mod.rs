@@ -2,9 +2,11 @@
 //! looked for comes in as closures.
 mod build;
 mod morton;
+mod sort;
 
 pub use build::cut_at_highest_bit;
 pub use morton::morton_code;
+pub use sort::sorted_codes;
 
 use crate::math::Aabb;
 use std::ops::Range;

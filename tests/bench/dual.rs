@@ -5,7 +5,9 @@ use fast_winding::math::Vec3;
 use fast_winding::treecode::{
     DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Sources, Targets,
 };
-use fast_winding::winding::{Accuracy, FieldConfig, WindingField, winding_of_cloud, winding_of_soup};
+use fast_winding::winding::{
+    Accuracy, FieldConfig, Triangles, WindingField, winding_of_cloud, winding_of_soup,
+};
 use std::fs;
 use std::sync::Arc;
 
@@ -29,10 +31,12 @@ fn main() {
     let bunny = common::bunny();
     let loose = apart(&bunny);
     let cloud = common::barycentre_cloud(&bunny, 2);
-    measure("bunny", &presets, resolution, bunny.clone(), bunny.clone(), |q| winding_of_soup(&bunny, q));
-    measure("loose", &presets, resolution, loose.clone(), loose.clone(), |q| winding_of_soup(&loose, q));
+    measure("bunny", &presets, resolution, of(&bunny), bunny.clone(), |q| winding_of_soup(&bunny, q));
+    measure("loose", &presets, resolution, of(&loose), loose.clone(), |q| winding_of_soup(&loose, q));
     let in_cloud: &OrientedCloud = &cloud;
-    measure("cloud", &presets, resolution, cloud.clone(), cloud.clone(), |q| winding_of_cloud(in_cloud, q));
+    measure("cloud", &presets, resolution, Arc::new(cloud.clone()), cloud.clone(), |q| {
+        winding_of_cloud(in_cloud, q)
+    });
 }
 
 fn explicit(parameters: &[f64]) -> DualAccuracy {
@@ -57,15 +61,18 @@ fn apart(soup: &TriangleSoup) -> TriangleSoup {
     TriangleSoup::new(positions, triangles).expect("corners are finite")
 }
 
-fn measure<S: Sources + Send>(
+fn of(soup: &TriangleSoup) -> Arc<Triangles> {
+    Arc::new(Triangles::new(Arc::new(soup.clone())))
+}
+
+fn measure(
     name: &str,
     presets: &[DualAccuracy],
     resolution: usize,
-    sources: S,
+    sources: Arc<dyn Sources>,
     shape: impl Into<Shape>,
     exact: impl Fn(Vec3) -> f64,
 ) {
-    let sources = Arc::new(sources);
     let field = WindingField::new(shape, FieldConfig::default());
     let bounds = field.bounds();
     let build = || {
@@ -131,23 +138,18 @@ fn best(run: impl Fn() -> (f64, Vec<f64>, f64)) -> (f64, Vec<f64>, f64) {
 }
 
 /// Seconds, values and the mean bound.
-fn run<S: Sources, T: Targets>(
-    tree: &DualTree<S>,
-    targets: &T,
-    count: usize,
-    accuracy: DualAccuracy,
-) -> (f64, Vec<f64>, f64) {
+fn run(tree: &DualTree, targets: &dyn Targets, count: usize, accuracy: DualAccuracy) -> (f64, Vec<f64>, f64) {
     let mut results = vec![0.0; count];
     let (mut sum, mut blocks) = (0.0, 0);
     let start = seconds();
-    let store = |indices: &[usize], outcome: Outcome<'_>| {
+    let mut store = |indices: &[usize], outcome: Outcome<'_>| {
         if let Outcome::Values { values, bound } = outcome {
             indices.iter().zip(values).for_each(|(i, v)| results[*i] = *v);
             sum += bound;
             blocks += 1;
         }
     };
-    tree.evaluate(targets, &accuracy, &Silent, |_, _, _| false, store).expect("nothing cancels");
+    tree.evaluate(targets, &accuracy, &Silent, None, &mut store).expect("nothing cancels");
     (seconds() - start, results, sum / f64::from(blocks))
 }
 

@@ -19,9 +19,9 @@ mod tree;
 mod walk;
 
 pub use accuracy::{DualAccuracy, SourceKind};
-pub use sources::{QueryBlock, QueryLanes, Sources};
-pub use targets::{BlockView, LatticeTargets, PointTargets, Targets};
-pub use tree::{DualTree, Outcome};
+pub use sources::{NearLeaf, QueryBlock, QueryLanes, Sources};
+pub use targets::{BlockView, Cells, LatticeTargets, PointTargets, Targets};
+pub use tree::{Decided, DualTree, Outcome};
 
 use crate::data::BLOCK;
 use local::MAX_DEGREE;

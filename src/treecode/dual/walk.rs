@@ -5,6 +5,9 @@ use super::far::FarFields;
 use super::local::Local;
 use super::multipole::Multipole;
 use super::place::{Block, Place};
+use super::sources::NearLeaf;
+use super::targets::Cells;
+use super::tree::Decided;
 use super::{BlockView, DualAccuracy, GROUPS, Sources, Targets, WIDTH};
 use crate::data::BLOCK;
 use crate::math::Vec3;
@@ -15,13 +18,13 @@ use wide::f32x4;
 const NEAREST_MULTIPOLE: f32 = 1.0 / 16.0;
 
 /// What does not change during walks.
-pub struct Walk<'a, S: Sources, T: Targets, D> {
+pub struct Walk<'a> {
     pub clusters: &'a Clusters,
-    pub sources: &'a S,
-    pub targets: &'a T,
+    pub sources: &'a dyn Sources,
+    pub targets: &'a dyn Targets,
     pub accuracy: DualAccuracy,
     /// Whether a block needs no values, as the field there is known to be between two numbers.
-    pub decided: &'a D,
+    pub decided: Option<Decided<'a>>,
 }
 
 /// What is known of a block: its values follow each other in [`Findings::values`].
@@ -31,8 +34,8 @@ pub enum Finding {
 }
 
 /// What one task found.
-pub struct Findings<B> {
-    pub blocks: Vec<(B, Finding)>,
+pub struct Findings {
+    pub blocks: Vec<(Cells, Finding)>,
     pub values: Vec<f64>,
 }
 
@@ -46,6 +49,7 @@ pub struct Space {
     far: Vec<u32>,
     /// Clusters and the groups of queries that they still have to act on.
     near: Vec<(u32, u32)>,
+    leaves: Vec<NearLeaf>,
     points: Vec<Vec3>,
     block: Block,
 }
@@ -59,9 +63,9 @@ struct Inherited {
     error: f64,
 }
 
-impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_, S, T, D> {
+impl Walk<'_> {
     /// Walks everything below a block, from the top of the tree of sources.
-    pub fn run(&self, block: &T::Block, space: &mut Space) -> Findings<T::Block> {
+    pub fn run(&self, block: &Cells, space: &mut Space) -> Findings {
         let mut findings = Findings { blocks: Vec::new(), values: Vec::new() };
         space.pending.clear();
         space.pending.extend(self.clusters.roots.clone().map(|c| c as u32));
@@ -74,11 +78,11 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     /// Treats one block, whose parent's clusters are `space.pending[from..]`.
     fn descend(
         &self,
-        block: &T::Block,
+        block: &Cells,
         inherited: &Inherited,
         from: usize,
         space: &mut Space,
-        findings: &mut Findings<T::Block>,
+        findings: &mut Findings,
     ) {
         let bounds = self.targets.bounds(block);
         let place = Place::new(&bounds, &self.clusters.frame);
@@ -89,9 +93,9 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         if !(is_leaf && touches) {
             self.add_far(&mut own, space);
         }
-        if !touches {
+        if let Some(decided) = self.decided.filter(|_| !touches) {
             let (low, high) = self.range(&own, &space.pending[mark..]);
-            if (self.decided)(&BlockView { targets: self.targets, block }, low, high) {
+            if decided(&BlockView { targets: self.targets, block }, low, high) {
                 findings.blocks.push((block.clone(), Finding::Within { low, high }));
                 space.pending.truncate(mark);
                 return;
@@ -99,12 +103,12 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         }
         if is_leaf {
             space.points.clear();
-            self.targets.for_each(block, |_, p| space.points.push(p));
+            self.targets.for_each(block, &mut |_, p| space.points.push(p));
             space.block.set(&space.points, &bounds, &place, &self.clusters.frame);
             let bound = self.values(&mut own, mark, space, &mut findings.values);
             findings.blocks.push((block.clone(), Finding::Values { bound }));
         } else {
-            self.targets.split(block, |child| self.descend(&child, &own, mark, space, findings));
+            self.targets.split(block, &mut |child| self.descend(&child, &own, mark, space, findings));
         }
         space.pending.truncate(mark);
     }
@@ -169,21 +173,16 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
 
     /// Appends the values at the queries of a leaf; answers a bound of their errors.
     fn values(&self, own: &mut Inherited, mark: usize, space: &mut Space, values: &mut Vec<f64>) -> f64 {
-        let mut sums = [S::zero(); GROUPS];
         let mut far = [f32x4::ZERO; GROUPS];
-        let error = self.near(&own.place, mark, space, &mut far, &mut sums);
+        let error = self.near(&own.place, mark, space, &mut far);
         own.error += ROUND_UP * error + ROUNDING_OF_SUMS;
         self.add_far(own, space);
         let (block, count) = (&space.block, space.points.len());
         let groups = block.queries.groups;
         own.local.values(&block.scaled[..groups], self.accuracy.degree, &mut far[..groups]);
-        for i in 0..count {
-            if i % WIDTH == 0 {
-                let near = S::total(&sums[i / WIDTH]);
-                let far = far[i / WIDTH].to_array();
-                values.extend((i..count.min(i + WIDTH)).map(|j| near[j - i] + f64::from(far[j - i])));
-            }
-        }
+        let mut all: [f64; BLOCK] = std::array::from_fn(|i| f64::from(far[i / WIDTH].to_array()[i % WIDTH]));
+        self.sources.add(&space.leaves, &self.clusters.items, &block.queries, &mut all);
+        values.extend(&all[..count]);
         if block.beyond != 0 {
             let first = values.len() - count;
             (0..count).filter(|i| block.beyond >> i & 1 == 1).for_each(|i| values[first + i] = 0.0);
@@ -192,18 +191,12 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     }
 
     /// Adds the fields of the pending clusters: of those that turn out far from the whole block to `space.far` for later,
-    /// of those far from some groups of queries by their multipole series to `far`, of the rest singly to `sums`. Answers
-    /// a bound of the error made.
-    fn near(
-        &self,
-        place: &Place,
-        mark: usize,
-        space: &mut Space,
-        far: &mut [f32x4; GROUPS],
-        sums: &mut [S::Sum; GROUPS],
-    ) -> f64 {
-        let Space { near, far: far_from_all, pending, block, .. } = space;
+    /// of those far from some groups of queries by their multipole series to `far`; lists the rest in `space.leaves`, to
+    /// be added singly. Answers a bound of the error made.
+    fn near(&self, place: &Place, mark: usize, space: &mut Space, far: &mut [f32x4; GROUPS]) -> f64 {
+        let Space { near, far: far_from_all, leaves, pending, block, .. } = space;
         let all = block.all();
+        leaves.clear();
         near.clear();
         near.extend(pending[mark..].iter().rev().map(|&c| (c, all)));
         let mut error = 0.0;
@@ -226,8 +219,9 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
                 continue;
             }
             if link.is_leaf() {
-                self.sources.add(&self.clusters.items[link.range()], &block.queries, rest, sums);
-                error += S::ROUNDING * link.range().len() as f64;
+                let range = link.range();
+                leaves.push(NearLeaf { first: range.start as u32, count: range.len() as u32, wanted: rest });
+                error += self.sources.rounding() * range.len() as f64;
             } else {
                 near.extend(link.range().rev().map(|c| (c as u32, rest)));
             }
