@@ -1,11 +1,12 @@
 //! The field of a soup on a lattice: crossings slab by slab, the fraction where it matters.
 use super::curtain::LANES;
 use super::field::FieldError;
+use super::many::Many;
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{FractionBy, SoupField, TIE};
 use crate::data::{Cancelled, Lattice, Monitor, for_each_lattice_block, map_items, map_parts, zeroed};
 use crate::math::Vec3;
-use crate::treecode::Scratch;
+use crate::treecode::{DualAccuracy, LatticeTargets, Scratch};
 
 /// Slabs between two reports to the monitor.
 const SLABS_PER_REPORT: usize = 8;
@@ -15,11 +16,12 @@ const TOP: usize = 32;
 const FEW_SAMPLES: usize = 8;
 
 impl SoupField {
-    /// Winding numbers at every sample.
+    /// Winding numbers at every sample; with `loose_by` the fraction is left to that.
     pub(super) fn lattice_values(
         &self,
         lattice: &Lattice,
         by: FractionBy,
+        loose_by: Option<(&Many, DualAccuracy)>,
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, FieldError> {
         let mut values = zeroed::<f64>(lattice.len())?;
@@ -31,7 +33,9 @@ impl SoupField {
             self.on_surface(lattice, slab, counted)
         };
         let on_surface = for_each_slab(&scan, lattice, &mut values, SLAB_PLANES, fill, stage, monitor)?;
-        if !self.is_closed() {
+        if let Some((many, accuracy)) = loose_by {
+            many.add(&LatticeTargets::new(lattice), &accuracy, &mut values, monitor)?;
+        } else if !self.is_closed() {
             let fractions = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
                 self.fractions(points, by, results, scratch);
             };

@@ -1,13 +1,15 @@
 //! The winding field of a soup or a cloud: one question, *how many times is this point inside?*
 //!
 //! `exact` is the definition and the oracle. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
-//! (`scan` on lattices, `locate` at scattered points) and a fraction of what closes it (`chain`, `closure`, `curtain`); a
-//! cloud's is the tree of Barill et al. 2018. `hierarchy` and `parity` are the methods that the paper compares itself with.
+//! (`scan` on lattices, `locate` at scattered points) and a fraction of what closes it (`chain`, `closure`, `curtain`).
+//! Clouds (`cloud_field`) and triangles that are not worth closing (`loose`) are summed by a dual tree where many points are
+//! asked for at once (`many`), and by the tree of Barill et al. 2018 at few. `hierarchy` and `parity` are the methods that the paper compares itself with.
 mod angle_product;
 mod buckets;
 mod certificate;
 mod chain;
 mod closure;
+mod cloud_field;
 mod curtain;
 mod dipoles;
 mod error_model;
@@ -18,6 +20,8 @@ mod gradient;
 mod hierarchy;
 mod lattice;
 mod locate;
+mod loose;
+mod many;
 mod near;
 mod parity;
 mod scan;

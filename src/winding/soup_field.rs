@@ -7,6 +7,7 @@ use super::exact::winding_of_soup;
 use super::facets::Facets;
 use super::gradient::edge_gradient;
 use super::locate::Locator;
+use super::many::Many;
 use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
 use crate::bvh::WIDTH;
@@ -35,7 +36,11 @@ pub struct SoupField {
     pub(super) balls: CapBalls,
     /// What the fraction is summed over, and the tree over it if it is worth one.
     sources: Triangles,
-    tree: Option<Tree<Triangles>>,
+    needs_tree: bool,
+    tree: OnceLock<Tree<Triangles>>,
+    config: TreeConfig,
+    /// The same sources for many points at once, if some are loose.
+    pub(super) many: Option<Many>,
     index: OnceLock<Index>,
     refined: AtomicUsize,
 }
@@ -65,9 +70,13 @@ impl SoupField {
         let needs_tree = !closure.loose.is_empty() || curtain.edges() > FEW_EDGES;
         let closure = Arc::new(closure);
         let sources = Triangles::of_fraction(soup.clone(), closure.clone());
+        let many = (!closure.loose.is_empty()).then(|| Many::new(Arc::new(sources.clone())));
         SoupField {
             balls: CapBalls::new(&closure.caps),
-            tree: needs_tree.then(|| Tree::build(&sources, config)),
+            needs_tree,
+            tree: OnceLock::new(),
+            config: *config,
+            many,
             soup,
             closure,
             curtain,
@@ -101,11 +110,21 @@ impl SoupField {
 
     pub fn bytes(&self) -> usize {
         let index = self.index.get().map_or(0, |i| i.locator.bytes() + i.least.len());
-        self.closure.bytes() + self.tree.as_ref().map_or(0, Tree::bytes) + index
+        let many = self.many.as_ref().map_or(0, Many::bytes);
+        self.closure.bytes() + self.tree.get().map_or(0, Tree::bytes) + many + index
     }
 
     pub fn nodes(&self) -> usize {
-        self.tree.as_ref().map_or(0, Tree::nodes)
+        self.many.as_ref().map_or(0, Many::clusters) + self.tree.get().map_or(0, Tree::nodes)
+    }
+
+    /// The tree over the sources of the fraction, if it is worth one; built when it is first needed, outside of the cell
+    /// that holds it, as the [`SoupField::index`].
+    fn tree(&self) -> Option<&Tree<Triangles>> {
+        if self.needs_tree && self.tree.get().is_none() {
+            let _ = self.tree.set(Tree::build(&self.sources, &self.config));
+        }
+        self.tree.get()
     }
 
     pub(super) fn facets(&self) -> Facets<'_> {
@@ -115,7 +134,7 @@ impl SoupField {
     /// How a fraction of the given expansion is summed, or of none: exactly.
     pub fn fraction_by(&self, expansion: Option<(Order, f64)>) -> FractionBy {
         match expansion {
-            Some((order, beta)) if self.tree.is_some() => FractionBy::Tree { order, beta },
+            Some((order, beta)) if self.needs_tree => FractionBy::Tree { order, beta },
             _ => FractionBy::Edges,
         }
     }
@@ -123,11 +142,12 @@ impl SoupField {
     /// Fractions at up to [`BLOCK`] points that lie close together, to which the crossings of the surface, for
     /// [`FractionBy::Tree`] those of the caps too, are to be added.
     pub fn fractions(&self, points: &[Vec3], by: FractionBy, results: &mut [f64], scratch: &mut Scratch) {
-        match (by, &self.tree) {
-            (FractionBy::Tree { order, beta }, Some(tree)) => {
-                tree.at_block(points, results, order, beta, scratch);
-            }
-            _ => self.exact_fractions(points, results),
+        if let FractionBy::Tree { order, beta } = by
+            && let Some(tree) = self.tree()
+        {
+            tree.at_block(points, results, order, beta, scratch);
+        } else {
+            self.exact_fractions(points, results);
         }
     }
 
@@ -187,7 +207,9 @@ impl SoupField {
         if !q.is_finite() {
             return Vec3::NAN;
         }
-        if let (FractionBy::Tree { order, beta }, Some(tree)) = (by, &self.tree) {
+        if let FractionBy::Tree { order, beta } = by
+            && let Some(tree) = self.tree()
+        {
             return tree.gradient(q, order, beta, scratch);
         }
         let sides = |t: &u32| {
@@ -201,6 +223,21 @@ impl SoupField {
     /// Builds what scattered points need, if it is not there.
     pub fn prepare_points(&self) {
         self.index();
+        self.tree();
+    }
+
+    /// Builds what many points at once need, if it is not there.
+    pub fn prepare_many_points(&self) {
+        self.index();
+    }
+
+    /// Crossings of the surface and the caps by the ray from `q`; none if `q` lies on the surface.
+    pub(super) fn crossings_at(&self, q: Vec3) -> Option<i32> {
+        let locator = &self.index().locator;
+        locator.at_a_glance(q).or_else(|| {
+            let location = locator.locate(self.facets(), q, true);
+            location.touching.is_empty().then_some(location.crossings)
+        })
     }
 
     /// Crossings of the caps by the ray from `q` along −x.

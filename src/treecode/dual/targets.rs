@@ -66,12 +66,18 @@ pub struct LatticeTargets {
     unit: [usize; 3],
     /// The samples of such a block in Morton order.
     order: [[u8; 3]; BLOCK],
+    planes: Range<usize>,
 }
 
 impl LatticeTargets {
     pub fn new(lattice: &Lattice) -> LatticeTargets {
+        LatticeTargets::of_planes(lattice, 0..lattice.counts[2])
+    }
+
+    /// The samples of some planes: from a multiple of four to another, or to the last plane.
+    pub fn of_planes(lattice: &Lattice, planes: Range<usize>) -> LatticeTargets {
         let unit = if lattice.counts[2] == 1 { [8, 8, 1] } else { [4; 3] };
-        LatticeTargets { lattice: *lattice, unit, order: order_within(unit) }
+        LatticeTargets { lattice: *lattice, unit, order: order_within(unit), planes }
     }
 
     /// The samples of a block.
@@ -85,7 +91,10 @@ impl LatticeTargets {
 
 impl Targets for LatticeTargets {
     fn whole(&self) -> Option<Cells> {
-        let cells = [0, 1, 2].map(|axis| 0..self.lattice.counts[axis].div_ceil(self.unit[axis]));
+        let cells =
+            |axis: usize, start: usize, end: usize| start / self.unit[axis]..end.div_ceil(self.unit[axis]);
+        let [x, y, _] = self.lattice.counts;
+        let cells = [cells(0, 0, x), cells(1, 0, y), cells(2, self.planes.start, self.planes.end)];
         (!self.lattice.is_empty()).then_some(cells)
     }
 
