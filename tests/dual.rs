@@ -5,7 +5,7 @@ use common::*;
 use fast_winding::data::{Lattice, OrientedCloud, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3};
 use fast_winding::treecode::{
-    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, SourceKind, Sources, Targets,
+    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Sources, Targets,
 };
 use fast_winding::winding::{Triangles, winding_of_cloud, winding_of_soup};
 use std::sync::Arc;
@@ -252,7 +252,7 @@ fn decided_blocks_hold_the_field_between_their_bounds() {
     };
     tree.evaluate(
         &LatticeTargets::new(&lattice),
-        &DualAccuracy::FINER,
+        &DualAccuracy::DEFAULT,
         &Silent,
         Some(&|_, low, high| low >= 0.5 || high < 0.5),
         &mut store,
@@ -295,9 +295,9 @@ fn tolerances_are_kept_on_a_scan() {
                 assert!(error <= tolerance.min(bound), "tolerance {tolerance}: error {error}, bound {bound}");
             }
         };
-        let accuracy = |kind| DualAccuracy::within(tolerance, kind).unwrap();
-        keeps(evaluate(&soup_tree, &targets, 300, accuracy(SourceKind::Triangles)), &of_soup);
-        keeps(evaluate(&cloud_tree, &targets, 300, accuracy(SourceKind::Points)), &of_cloud);
+        let accuracy = DualAccuracy::within(tolerance).unwrap();
+        keeps(evaluate(&soup_tree, &targets, 300, accuracy), &of_soup);
+        keeps(evaluate(&cloud_tree, &targets, 300, accuracy), &of_cloud);
     }
-    assert_eq!(DualAccuracy::within(1e-7, SourceKind::Triangles), None);
+    assert_eq!(DualAccuracy::within(1e-7), None);
 }

@@ -227,7 +227,7 @@ impl WindingField {
     fn many_for(&self, accuracy: Accuracy) -> Option<(&Many, DualAccuracy)> {
         let Accuracy::Tolerance(tolerance) = accuracy else { return None };
         let many = self.many()?;
-        many.within(tolerance).map(|accuracy| (many, accuracy))
+        DualAccuracy::within(tolerance).map(|accuracy| (many, accuracy))
     }
 
     fn many(&self) -> Option<&Many> {

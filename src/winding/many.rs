@@ -14,7 +14,6 @@ const LOOKS: [f64; 3] = [2.5e-2, 2e-3, 1e-4];
 
 /// Sources whose field is asked for at many points at once.
 pub struct Many {
-    sources: Arc<dyn Sources>,
     tree: DualTree,
 }
 
@@ -30,7 +29,7 @@ pub struct InsideTest<'a> {
 
 impl Many {
     pub fn new(sources: Arc<dyn Sources>) -> Many {
-        Many { tree: DualTree::build(sources.clone(), LEAF), sources }
+        Many { tree: DualTree::build(sources, LEAF) }
     }
 
     pub fn bytes(&self) -> usize {
@@ -39,11 +38,6 @@ impl Many {
 
     pub fn clusters(&self) -> usize {
         self.tree.clusters()
-    }
-
-    /// Parameters whose largest error, as measured, stays below a tolerance; none if only the direct sum is that exact.
-    pub fn within(&self, tolerance: f64) -> Option<DualAccuracy> {
-        DualAccuracy::within(tolerance, self.sources.kind())
     }
 
     /// Adds the field at all targets to the `values` of the queries' indices; NaN where a query is not finite.
@@ -90,7 +84,7 @@ impl Many {
         let again = |_: f64, _: &str| monitor.report(1.0, "inside test").is_ok();
         let mut open: Vec<usize> = Vec::new();
         for (look, error) in LOOKS.into_iter().enumerate() {
-            let accuracy = self.within(error).expect("a coarse look is possible");
+            let accuracy = DualAccuracy::within(error).expect("a coarse look is possible");
             let mut left = Vec::new();
             let mut judge = |index: usize, w: f64| {
                 let above = (test.offset)(index) + w - test.threshold;

@@ -1,5 +1,5 @@
 //! Times and errors of the dual-tree evaluator on the bunny as it is, on its triangles moved apart, and on its barycentres:
-//! `RAYON_NUM_THREADS=1 cargo run --release --example dual -- [RESOLUTION] [ORDER DEGREE BETA ETA]…`.
+//! `RAYON_NUM_THREADS=1 cargo run --release --example dual -- [RESOLUTION] [ORDER DEGREE ERROR]…`.
 use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent, TriangleSoup};
 use fast_winding::math::Vec3;
 use fast_winding::treecode::{
@@ -16,7 +16,7 @@ mod common;
 
 const LEAF_SIZE: usize = 8;
 /// What all samples are compared with.
-const REFERENCE: DualAccuracy = DualAccuracy { order: 3, degree: 5, beta: 10.0, eta: 12.0 };
+const REFERENCE: DualAccuracy = DualAccuracy { order: 3, degree: 5, error: 1e-8 };
 /// About so many samples of the reference are compared with the direct sum.
 const CHECKED: usize = 200;
 
@@ -25,7 +25,7 @@ fn main() {
         std::env::args().skip(1).map(|a| a.parse().expect("arguments are numbers")).collect();
     let resolution = arguments.first().map_or(100, |r| *r as usize);
     let presets = match &arguments[1.min(arguments.len())..] {
-        [_, ..] => arguments[1..].chunks_exact(4).map(explicit).collect(),
+        [_, ..] => arguments[1..].chunks_exact(3).map(explicit).collect(),
         [] => vec![DualAccuracy::FAST, DualAccuracy::DEFAULT, DualAccuracy::FINE, DualAccuracy::FINER],
     };
     let bunny = common::bunny();
@@ -40,12 +40,7 @@ fn main() {
 }
 
 fn explicit(parameters: &[f64]) -> DualAccuracy {
-    DualAccuracy {
-        order: parameters[0] as usize,
-        degree: parameters[1] as usize,
-        beta: parameters[2],
-        eta: parameters[3],
-    }
+    DualAccuracy { order: parameters[0] as usize, degree: parameters[1] as usize, error: parameters[2] }
 }
 
 /// Every triangle with corners of its own, moved by up to a 300th of the diagonal.
@@ -109,11 +104,10 @@ fn measure(
             best(|| run(&tree, &PointTargets::new(&scattered), scattered.len(), *accuracy));
         let (rms, max) = difference(values.iter(), reference.iter());
         println!(
-            "  p {} q {} beta {} eta {}: lattice {:.0} ns, scattered {:.0} ns, rms {rms:.1e}, max {max:.1e}, bound {bound:.1e}",
+            "  p {} q {} error {:.0e}: lattice {:.0} ns, scattered {:.0} ns, rms {rms:.1e}, max {max:.1e}, bound {bound:.1e}",
             accuracy.order,
             accuracy.degree,
-            accuracy.beta,
-            accuracy.eta,
+            accuracy.error,
             1e9 * time / lattice.len() as f64,
             1e9 * time_scattered / lattice.len() as f64,
         );

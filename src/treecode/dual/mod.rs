@@ -13,6 +13,7 @@ mod local;
 mod moments;
 mod multipole;
 mod place;
+mod reach;
 mod sources;
 mod targets;
 mod tree;

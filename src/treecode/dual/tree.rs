@@ -1,4 +1,5 @@
 use super::clusters::Clusters;
+use super::reach::reaches;
 use super::walk::{Finding, Findings, Space, Walk};
 use super::{BlockView, DualAccuracy, Sources, Targets};
 use crate::data::{Cancelled, Monitor, map_tasks};
@@ -58,11 +59,13 @@ impl DualTree {
         store: &mut dyn FnMut(&[usize], Outcome<'_>),
     ) -> Result<(), Cancelled> {
         const STAGE: &str = "winding numbers";
+        let accuracy = accuracy.sane();
         let walk = Walk {
             clusters: &self.clusters,
+            reaches: reaches(&self.clusters, &accuracy),
             sources: &*self.sources,
             targets,
-            accuracy: accuracy.sane(),
+            accuracy,
             decided,
         };
         let tasks = targets.tasks();

@@ -5,6 +5,7 @@ use super::far::FarFields;
 use super::local::Local;
 use super::multipole::Multipole;
 use super::place::{Block, Place};
+use super::reach::{BlockReach, CLASSES, LONGEST, Reach};
 use super::sources::NearLeaf;
 use super::targets::Cells;
 use super::tree::Decided;
@@ -20,6 +21,7 @@ const NEAREST_MULTIPOLE: f32 = 1.0 / 16.0;
 /// What does not change during walks.
 pub struct Walk<'a> {
     pub clusters: &'a Clusters,
+    pub reaches: Vec<Reach>,
     pub sources: &'a dyn Sources,
     pub targets: &'a dyn Targets,
     pub accuracy: DualAccuracy,
@@ -46,7 +48,8 @@ pub struct Space {
     /// Clusters left to the blocks below, as a stack of lists.
     pending: Vec<u32>,
     work: Vec<u32>,
-    far: Vec<u32>,
+    /// Clusters far from the block, by their class.
+    far: [Vec<u32>; CLASSES],
     /// Clusters and the groups of queries that they still have to act on.
     near: Vec<(u32, u32)>,
     leaves: Vec<NearLeaf>,
@@ -117,11 +120,10 @@ impl Walk<'_> {
     /// below (appended to `space.pending`), opening the large ones. Answers whether one of the latter touches the block.
     fn sift(&self, place: &Place, from: usize, space: &mut Space) -> bool {
         let Space { pending, work, far, .. } = space;
-        far.clear();
         work.clear();
         work.extend_from_slice(&pending[from..]);
         let (reach, small) = (f32x4::splat(place.radius), 0.5 * place.radius);
-        let (beta, eta) = (f32x4::splat(self.accuracy.beta as f32), f32x4::splat(self.accuracy.eta as f32));
+        let of_block = BlockReach::new(place.radius, &self.accuracy);
         let mut touches = false;
         let mut next = 0;
         while next < work.len() {
@@ -131,14 +133,14 @@ impl Walk<'_> {
             next += count;
             let (offset, radius) = place.relative_to(four.map(|c| &self.clusters.balls[c as usize]));
             let distance = (offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]).sqrt();
-            let is_far = (distance.simd_gt(beta * radius + reach) & (distance - radius).simd_gt(eta * reach))
-                .to_bitmask();
             let is_apart = (distance * f32x4::splat(1.0 - 1e-6)).simd_gt(radius + reach).to_bitmask();
+            let (distance, radius) = (distance.to_array(), radius.to_array());
             for (k, cluster) in four.into_iter().enumerate().take(count) {
                 let link = &self.clusters.links[cluster as usize];
-                if is_far >> k & 1 == 1 {
-                    far.push(cluster);
-                } else if link.is_leaf() || self.clusters.balls[cluster as usize][3] < small {
+                let class = of_block.class(&self.reaches[cluster as usize], distance[k], radius[k]);
+                if let Some(class) = class {
+                    far[class].push(cluster);
+                } else if link.is_leaf() || radius[k] < small {
                     touches |= is_apart >> k & 1 == 0;
                     pending.push(cluster);
                 } else {
@@ -152,7 +154,7 @@ impl Walk<'_> {
     fn add_far(&self, own: &mut Inherited, space: &mut Space) {
         let Space { far_fields, far, .. } = space;
         own.error += far_fields.add(self.clusters, far, &own.place, &self.accuracy, &mut own.local);
-        far.clear();
+        far.iter_mut().for_each(Vec::clear);
     }
 
     /// Bounds of the field over a block that no pending cluster touches.
@@ -199,17 +201,21 @@ impl Walk<'_> {
         leaves.clear();
         near.clear();
         near.extend(pending[mark..].iter().rev().map(|&c| (c, all)));
+        let of_block = BlockReach::new(place.radius, &self.accuracy);
         let mut error = 0.0;
         while let Some((cluster, wanted)) = near.pop() {
             let (ball, link) =
                 (&self.clusters.balls[cluster as usize], &self.clusters.links[cluster as usize]);
             let offset = place.offset_of(ball);
-            if wanted == all && self.is_far(offset.length() as f32, ball[3], place.radius) {
-                far_from_all.push(cluster);
+            let (reach, distance) = (&self.reaches[cluster as usize], offset.length() as f32);
+            if wanted == all
+                && let Some(class) = of_block.class(reach, distance, ball[3])
+            {
+                far_from_all[class].push(cluster);
                 continue;
             }
             let center = offset.to_array().map(|x| x as f32);
-            let is_far = self.far_groups(block, center, ball[3], wanted);
+            let is_far = self.far_groups(block, center, cluster, wanted);
             if is_far != 0 {
                 self.add_multipole(block, cluster, center, is_far, far);
                 error += self.error_of_multipole(cluster, offset.length() as f32, place.radius);
@@ -229,20 +235,15 @@ impl Walk<'_> {
         error
     }
 
-    fn is_far(&self, distance: f32, radius: f32, reach: f32) -> bool {
-        let DualAccuracy { beta, eta, .. } = self.accuracy;
-        distance > beta as f32 * radius + reach && distance - radius > eta as f32 * reach
-    }
-
-    /// From where on a cluster acts by its multipole series on queries of a block: β radii.
-    fn least_distance(&self, radius: f32, reach: f32) -> f32 {
-        (self.accuracy.beta as f32 * radius).max(NEAREST_MULTIPOLE * reach)
+    /// From where on a cluster acts by its multipole series on queries of a block.
+    fn least_distance(&self, cluster: u32, radius: f32) -> f32 {
+        self.reaches[cluster as usize].multipole[LONGEST].max(NEAREST_MULTIPOLE * radius)
     }
 
     /// Which of the `wanted` groups of queries lie farther than that from a cluster.
     #[inline(always)]
-    fn far_groups(&self, block: &Block, center: [f32; 3], radius: f32, wanted: u32) -> u32 {
-        let distance = self.least_distance(radius, block.queries.reach);
+    fn far_groups(&self, block: &Block, center: [f32; 3], cluster: u32, wanted: u32) -> u32 {
+        let distance = self.least_distance(cluster, block.queries.reach);
         let (center, square) = (center.map(f32x4::splat), f32x4::splat(distance * distance));
         bits(wanted)
             .filter(|&g| Multipole::is_farther(&center, &block.queries.offsets[g], square))
@@ -272,7 +273,7 @@ impl Walk<'_> {
     fn error_of_multipole(&self, cluster: u32, distance: f32, reach: f32) -> f64 {
         let (series, radius) =
             (&self.clusters.series[cluster as usize], self.clusters.balls[cluster as usize][3]);
-        let closest = (distance - reach).max(self.least_distance(radius, reach)) * (1.0 - 1e-5);
+        let closest = (distance - reach).max(self.least_distance(cluster, reach)) * (1.0 - 1e-5);
         let order = self.accuracy.order;
         let [area, spread, radius, closest] =
             [series.area, bounds::spread_of_order(series.spread, order), radius, closest].map(f32x4::splat);
