@@ -12,12 +12,17 @@ impl Bvh {
     ///
     /// The same boxes give the same tree whatever the number of threads. Costs one sort.
     pub fn build(boxes: &[Aabb], leaf_size: usize) -> Bvh {
-        let leaf_size = leaf_size.max(1);
         let bounds = Aabb::around(boxes.iter().map(|b| b.center()));
-        let (codes, items) =
-            sorted_codes(map_items(boxes.len(), |item| morton_code(boxes[item].center(), &bounds)));
-        let (mut nodes, levels) = split_levels(&codes, leaf_size);
-        fit_boxes(&mut nodes, &levels, &items, boxes);
+        let codes = map_items(boxes.len(), |item| morton_code(boxes[item].center(), &bounds));
+        let mut bvh = Bvh::along_curve(codes, leaf_size);
+        fit_boxes(&mut bvh.nodes, &bvh.levels, &bvh.items, boxes);
+        bvh
+    }
+
+    /// The hierarchy over items with these codes, without boxes.
+    pub fn along_curve(codes: Vec<u64>, leaf_size: usize) -> Bvh {
+        let (codes, items) = sorted_codes(codes);
+        let (nodes, levels) = split_levels(&codes, leaf_size.max(1));
         Bvh { nodes, levels, items }
     }
 }

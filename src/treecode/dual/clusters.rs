@@ -2,9 +2,9 @@
 use super::local::sum_of_lanes;
 use super::moments::{COEFFICIENTS, Moments};
 use super::{SourceKind, Sources, WIDTH};
-use crate::bvh::{Bvh, Child};
+use crate::bvh::{Bvh, Child, morton_code};
 use crate::data::{map_items, set_each};
-use crate::math::{Aabb, Vec3};
+use crate::math::{Aabb, Vec3, area_vector};
 use crate::treecode::frame::Frame;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -78,13 +78,15 @@ struct Part {
 
 impl Clusters {
     pub fn build(sources: &dyn Sources, leaf_size: usize) -> Clusters {
-        let boxes = map_items(sources.len(), |i| Aabb::around(sources.corners(i)));
-        let bounds = boxes.iter().copied().fold(Aabb::EMPTY, Aabb::union);
-        let bvh = Bvh::build(&boxes, leaf_size);
-        drop(boxes);
+        let all = map_items(sources.len(), |i| sources.corners(i));
+        let bounds = Aabb::around(all.iter().flatten().copied());
+        let middle = |i: usize| Aabb::around(all[i]).center();
+        let bvh = Bvh::along_curve(map_items(all.len(), |i| morton_code(middle(i), &bounds)), leaf_size);
         let frame = Frame::around(&bounds);
         let (links, levels) = link(&bvh);
-        let corners = Corners::new(sources, bvh.items(), &frame);
+        let members = map_items(all.len(), |k| Member::new(sources, &all, bvh.items()[k] as usize, &frame));
+        drop(all);
+        let corners = Corners::new(&members, sources.kind());
         let empty = Part { area: 0.0, center: Vec3::ZERO, moments: Moments::ZERO };
         let mut parts = vec![empty; links.len()];
         for level in levels.iter().rev() {
@@ -93,7 +95,7 @@ impl Clusters {
                 let link = &links[level.start + k];
                 let range = link.range();
                 *part = if link.is_leaf() {
-                    Part::of_sources(&gather(sources, &bvh.items()[range], &frame), sources.kind())
+                    Part::of_sources(&members[range], sources.kind())
                 } else {
                     Part::of_parts(&lower[range.start - level.end..range.end - level.end])
                 };
@@ -210,15 +212,15 @@ struct Member {
     area_vector: Vec3,
 }
 
-/// Copies sources of a leaf: all at once, as they are anywhere in memory.
-fn gather(sources: &dyn Sources, items: &[u32], frame: &Frame) -> Vec<Member> {
-    let scale = frame.scale * frame.scale;
-    let member = |&i: &u32| {
-        let [a, b, c] = sources.corners(i as usize);
-        let corners = [frame.local(a), frame.local(b), frame.local(c)];
-        Member { corners, area_vector: scale * sources.area_vector(i as usize) }
-    };
-    items.iter().map(member).collect()
+impl Member {
+    fn new(sources: &dyn Sources, all: &[[Vec3; 3]], item: usize, frame: &Frame) -> Member {
+        let corners = all[item].map(|corner| frame.local(corner));
+        let area_vector = match sources.kind() {
+            SourceKind::Triangles => area_vector(corners),
+            SourceKind::Points => frame.scale * frame.scale * sources.area_vector(item),
+        };
+        Member { corners, area_vector }
+    }
 }
 
 /// A centre that is exact in 32-bit floats, so that storing it rounds nothing.
@@ -235,19 +237,16 @@ struct Corners {
 }
 
 impl Corners {
-    fn new(sources: &dyn Sources, items: &[u32], frame: &Frame) -> Corners {
-        let for_each = if sources.kind() == SourceKind::Points { 1 } else { 3 };
-        let scale = frame.scale * frame.scale / for_each as f64;
-        let of_source = |k: usize| {
-            let item = items[k] as usize;
-            let share = (scale * sources.area_vector(item).length() * ROUND_UP) as f32;
-            sources.corners(item).map(|corner| {
-                let [x, y, z] = frame.local(corner).to_array().map(|x| x as f32);
+    fn new(members: &[Member], kind: SourceKind) -> Corners {
+        let for_each = if kind == SourceKind::Points { 1 } else { 3 };
+        let mut corners = Vec::with_capacity(for_each * members.len());
+        for member in members {
+            let share = (member.area_vector.length() / for_each as f64 * ROUND_UP) as f32;
+            corners.extend(member.corners[..for_each].iter().map(|corner| {
+                let [x, y, z] = corner.to_array().map(|x| x as f32);
                 [x, y, z, share]
-            })
-        };
-        let all = map_items(items.len(), of_source);
-        let corners = all.into_iter().flat_map(|corners| corners.into_iter().take(for_each)).collect();
+            }));
+        }
         Corners { corners, for_each }
     }
 
