@@ -1,6 +1,7 @@
 use super::{GROUPS, SourceKind};
 use crate::data::BLOCK;
 use crate::math::Vec3;
+use std::panic::RefUnwindSafe;
 use wide::{f32x4, f64x4};
 
 /// Coordinates of four queries near the middle of their block.
@@ -21,8 +22,9 @@ pub struct QueryBlock {
     pub groups: usize,
 }
 
-/// A kind of source for a [`super::DualTree`]: what its far field is made of and how its near field is summed.
-pub trait Sources: Send + Sync {
+/// A kind of source for a [`super::DualTree`]: what its far field is made of and how its near field is summed. A panic leaves
+/// it as it was.
+pub trait Sources: Send + Sync + RefUnwindSafe {
     fn len(&self) -> usize;
     fn is_empty(&self) -> bool {
         self.len() == 0
