@@ -5,9 +5,9 @@ use common::*;
 use fast_winding::data::{Lattice, OrientedCloud, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3};
 use fast_winding::treecode::{
-    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, SourceKind, Sources, Targets,
+    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Sources, Targets,
 };
-use fast_winding::winding::{winding_of_cloud, winding_of_soup};
+use fast_winding::winding::{Triangles, winding_of_cloud, winding_of_soup};
 use std::sync::Arc;
 
 const LEAF: usize = 8;
@@ -22,25 +22,20 @@ const PRESETS: [(DualAccuracy, f64); 4] = [
 ];
 
 /// Values and bounds at all targets.
-fn evaluate<S: Sources, T: Targets>(
-    tree: &DualTree<S>,
-    targets: &T,
-    count: usize,
-    accuracy: DualAccuracy,
-) -> Vec<(f64, f64)> {
+fn evaluate(tree: &DualTree, targets: &dyn Targets, count: usize, accuracy: DualAccuracy) -> Vec<(f64, f64)> {
     let mut results = vec![(f64::INFINITY, 0.0); count];
-    let store = |indices: &[usize], outcome: Outcome<'_>| match outcome {
+    let mut store = |indices: &[usize], outcome: Outcome<'_>| match outcome {
         Outcome::Values { values, bound } => {
             indices.iter().zip(values).for_each(|(i, v)| results[*i] = (*v, bound));
         }
         Outcome::Within { .. } => panic!("nothing was decided"),
     };
-    tree.evaluate(targets, &accuracy, &Silent, |_, _, _| false, store).unwrap();
+    tree.evaluate(targets, &accuracy, &Silent, None, &mut store).unwrap();
     results
 }
 
-fn check<S: Sources + Send>(sources: S, exact: impl Fn(Vec3) -> f64, bounds: Aabb, strength: f64) {
-    let tree = DualTree::build(Arc::new(sources), LEAF);
+fn check(sources: Arc<dyn Sources>, exact: impl Fn(Vec3) -> f64, bounds: Aabb, strength: f64) {
+    let tree = DualTree::build(sources, LEAF);
     for (preset, (accuracy, tolerance)) in PRESETS.into_iter().enumerate() {
         let tolerance = tolerance * strength;
         for shape in [[11, 9, 13], [21, 22, 1]] {
@@ -64,13 +59,17 @@ fn check<S: Sources + Send>(sources: S, exact: impl Fn(Vec3) -> f64, bounds: Aab
     }
 }
 
+fn of(soup: &TriangleSoup) -> Arc<Triangles> {
+    Arc::new(Triangles::new(Arc::new(soup.clone())))
+}
+
 /// `strength`: how many times stronger the field may be than that of a closed surface.
 fn check_soup(soup: &TriangleSoup, strength: f64) {
-    check(soup.clone(), |q| winding_of_soup(soup, q), soup.bounds().padded(0.1), strength);
+    check(of(soup), |q| winding_of_soup(soup, q), soup.bounds().padded(0.1), strength);
 }
 
 fn check_cloud(cloud: &OrientedCloud, strength: f64) {
-    check(cloud.clone(), |q| winding_of_cloud(cloud, q), cloud.bounds().padded(0.1), strength);
+    check(Arc::new(cloud.clone()), |q| winding_of_cloud(cloud, q), cloud.bounds().padded(0.1), strength);
 }
 
 fn broken_torus() -> TriangleSoup {
@@ -118,17 +117,13 @@ fn degenerate_soups_are_right() {
 
 #[test]
 fn nothing_has_no_field() {
-    let tree = DualTree::build(TriangleSoup::default(), LEAF);
+    let tree = DualTree::build(of(&TriangleSoup::default()), LEAF);
     let points = [Vec3::ZERO, Vec3::ONE];
     assert_eq!(evaluate(&tree, &PointTargets::new(&points), 2, DualAccuracy::DEFAULT)[1].0, 0.0);
-    let full = DualTree::build(cube(1.0), LEAF);
-    full.evaluate(
-        &PointTargets::new(&[]),
-        &DualAccuracy::DEFAULT,
-        &Silent,
-        |_, _, _| false,
-        |_, _| panic!("there are no queries"),
-    )
+    let full = DualTree::build(of(&cube(1.0)), LEAF);
+    full.evaluate(&PointTargets::new(&[]), &DualAccuracy::DEFAULT, &Silent, None, &mut |_, _| {
+        panic!("there are no queries")
+    })
     .unwrap();
 }
 
@@ -141,7 +136,7 @@ fn equal_points_and_queries_on_points_are_right() {
     check_cloud(&cloud(vec![Vec3::ONE; 5000]), ANY);
     check_cloud(&cloud(vec![Vec3::ONE]), ANY);
     let sphere = sphere_cloud(2000);
-    let tree = DualTree::build(sphere.clone(), LEAF);
+    let tree = DualTree::build(Arc::new(sphere.clone()), LEAF);
     let results = evaluate(&tree, &PointTargets::new(sphere.points()), 2000, DualAccuracy::FINER);
     for (q, (value, bound)) in sphere.points().iter().zip(results) {
         let error = (value - winding_of_cloud(&sphere, *q)).abs();
@@ -158,8 +153,12 @@ fn principal_values_on_the_surface_are_kept() {
         (Vec3::new(1.0, 1.0, 1.0), 0.125),
     ];
     let points = places.map(|p| p.0);
-    let results =
-        evaluate(&DualTree::build(cube(1.0), LEAF), &PointTargets::new(&points), 4, DualAccuracy::DEFAULT);
+    let results = evaluate(
+        &DualTree::build(of(&cube(1.0)), LEAF),
+        &PointTargets::new(&points),
+        4,
+        DualAccuracy::DEFAULT,
+    );
     for ((_, expected), (value, _)) in places.into_iter().zip(results) {
         assert!((value - expected).abs() < 1e-5, "{value} instead of {expected}");
     }
@@ -168,7 +167,7 @@ fn principal_values_on_the_surface_are_kept() {
 #[test]
 fn queries_next_to_the_surface_are_on_the_right_side() {
     let soup = sphere(12);
-    let tree = DualTree::build(soup.clone(), LEAF);
+    let tree = DualTree::build(of(&soup), LEAF);
     for offset in [1e-3, 1e-6, 1e-9] {
         let points: Vec<Vec3> = (0..soup.len())
             .flat_map(|t| {
@@ -195,8 +194,12 @@ fn queries_that_are_not_finite_give_nan_and_distant_ones_nothing() {
     points[90].z = f64::NEG_INFINITY;
     points[91] = Vec3::splat(1e30);
     points[92] = Vec3::splat(-1e200);
-    let results =
-        evaluate(&DualTree::build(cube(1.0), LEAF), &PointTargets::new(&points), 200, DualAccuracy::DEFAULT);
+    let results = evaluate(
+        &DualTree::build(of(&cube(1.0)), LEAF),
+        &PointTargets::new(&points),
+        200,
+        DualAccuracy::DEFAULT,
+    );
     for (i, (value, _)) in results.into_iter().enumerate() {
         match i {
             7 | 90 => assert!(value.is_nan()),
@@ -214,7 +217,7 @@ fn bits_are_equal_for_any_number_of_threads() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let tree = DualTree::build(soup.clone(), LEAF);
+            let tree = DualTree::build(of(&soup), LEAF);
             let on_lattice =
                 evaluate(&tree, &LatticeTargets::new(&lattice), lattice.len(), DualAccuracy::DEFAULT);
             let at_points = evaluate(&tree, &PointTargets::new(&points), points.len(), DualAccuracy::DEFAULT);
@@ -232,11 +235,11 @@ fn bits_are_equal_for_any_number_of_threads() {
 #[test]
 fn decided_blocks_hold_the_field_between_their_bounds() {
     let soup = broken_torus();
-    let tree = DualTree::build(soup.clone(), LEAF);
+    let tree = DualTree::build(of(&soup), LEAF);
     let lattice = Lattice::with_resolution(soup.bounds().padded(0.5), 48).unwrap();
     let mut seen = vec![0; lattice.len()];
     let mut decided_samples = 0;
-    let store = |indices: &[usize], outcome: Outcome<'_>| {
+    let mut store = |indices: &[usize], outcome: Outcome<'_>| {
         indices.iter().for_each(|i| seen[*i] += 1);
         if let Outcome::Within { low, high } = outcome {
             assert!(low >= 0.5 || high < 0.5);
@@ -249,10 +252,10 @@ fn decided_blocks_hold_the_field_between_their_bounds() {
     };
     tree.evaluate(
         &LatticeTargets::new(&lattice),
-        &DualAccuracy::FINER,
+        &DualAccuracy::DEFAULT,
         &Silent,
-        |_, low, high| low >= 0.5 || high < 0.5,
-        store,
+        Some(&|_, low, high| low >= 0.5 || high < 0.5),
+        &mut store,
     )
     .unwrap();
     assert!(seen.iter().all(|s| *s == 1));
@@ -261,23 +264,18 @@ fn decided_blocks_hold_the_field_between_their_bounds() {
 
 #[test]
 fn a_monitor_can_stop_the_evaluation() {
-    let tree = DualTree::build(cube(1.0), LEAF);
+    let tree = DualTree::build(of(&cube(1.0)), LEAF);
     let lattice = Lattice::with_resolution(cube(1.0).bounds(), 120).unwrap();
     let monitor = |fraction: f64, _: &str| fraction < 0.3;
-    let result = tree.evaluate(
-        &LatticeTargets::new(&lattice),
-        &DualAccuracy::DEFAULT,
-        &monitor,
-        |_, _, _| false,
-        |_, _| {},
-    );
+    let result =
+        tree.evaluate(&LatticeTargets::new(&lattice), &DualAccuracy::DEFAULT, &monitor, None, &mut |_, _| {});
     assert!(result.is_err());
 }
 
 #[test]
 fn memory_stays_below_a_hundred_bytes_for_a_source() {
     let soup = torus(1.0, 0.4, 200, 100);
-    let tree = DualTree::build(Arc::new(soup.clone()), LEAF);
+    let tree = DualTree::build(of(&soup), LEAF);
     assert!(tree.bytes() < 100 * soup.len(), "{}", tree.bytes() as f64 / soup.len() as f64);
 }
 
@@ -288,7 +286,7 @@ fn tolerances_are_kept_on_a_scan() {
     let points = scattered(bunny.bounds(), 300, 11);
     let of_soup: Vec<f64> = points.iter().map(|q| winding_of_soup(&bunny, *q)).collect();
     let of_cloud: Vec<f64> = points.iter().map(|q| winding_of_cloud(&cloud, *q)).collect();
-    let (soup_tree, cloud_tree) = (DualTree::build(bunny, LEAF), DualTree::build(cloud, LEAF));
+    let (soup_tree, cloud_tree) = (DualTree::build(of(&bunny), LEAF), DualTree::build(Arc::new(cloud), LEAF));
     let targets = PointTargets::new(&points);
     for tolerance in [1e-2f64, 1e-3, 1e-4, 1e-5] {
         let keeps = |results: Vec<(f64, f64)>, expected: &[f64]| {
@@ -297,9 +295,9 @@ fn tolerances_are_kept_on_a_scan() {
                 assert!(error <= tolerance.min(bound), "tolerance {tolerance}: error {error}, bound {bound}");
             }
         };
-        let accuracy = |kind| DualAccuracy::within(tolerance, kind).unwrap();
-        keeps(evaluate(&soup_tree, &targets, 300, accuracy(SourceKind::Triangles)), &of_soup);
-        keeps(evaluate(&cloud_tree, &targets, 300, accuracy(SourceKind::Points)), &of_cloud);
+        let accuracy = DualAccuracy::within(tolerance).unwrap();
+        keeps(evaluate(&soup_tree, &targets, 300, accuracy), &of_soup);
+        keeps(evaluate(&cloud_tree, &targets, 300, accuracy), &of_cloud);
     }
-    assert_eq!(DualAccuracy::within(1e-7, SourceKind::Triangles), None);
+    assert_eq!(DualAccuracy::within(1e-7), None);
 }

@@ -1,6 +1,6 @@
 //! Linear build: sort along the Morton curve, then split where the highest bit of the code changes.
-use super::{Bvh, Child, Node, WIDTH, morton_code};
-use crate::data::{map_items, set_each, sort_keyed};
+use super::{Bvh, Child, Node, WIDTH, morton_code, sorted_codes};
+use crate::data::{map_items, set_each};
 use crate::math::Aabb;
 use std::ops::Range;
 
@@ -12,14 +12,17 @@ impl Bvh {
     ///
     /// The same boxes give the same tree whatever the number of threads. Costs one sort.
     pub fn build(boxes: &[Aabb], leaf_size: usize) -> Bvh {
-        let leaf_size = leaf_size.max(1);
         let bounds = Aabb::around(boxes.iter().map(|b| b.center()));
-        let code = |item: usize| (morton_code(boxes[item].center(), &bounds), item as u32);
-        let mut sorted: Vec<(u64, u32)> = map_items(boxes.len(), code);
-        sort_keyed(&mut sorted);
-        let (codes, items): (Vec<u64>, Vec<u32>) = sorted.into_iter().unzip();
-        let (mut nodes, levels) = split_levels(&codes, leaf_size);
-        fit_boxes(&mut nodes, &levels, &items, boxes);
+        let codes = map_items(boxes.len(), |item| morton_code(boxes[item].center(), &bounds));
+        let mut bvh = Bvh::along_curve(codes, leaf_size);
+        fit_boxes(&mut bvh.nodes, &bvh.levels, &bvh.items, boxes);
+        bvh
+    }
+
+    /// The hierarchy over items with these codes, without boxes.
+    pub fn along_curve(codes: Vec<u64>, leaf_size: usize) -> Bvh {
+        let (codes, items) = sorted_codes(codes);
+        let (nodes, levels) = split_levels(&codes, leaf_size.max(1));
         Bvh { nodes, levels, items }
     }
 }

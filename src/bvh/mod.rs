@@ -3,10 +3,12 @@
 mod build;
 mod morton;
 mod nearest;
+mod sort;
 
 pub use build::cut_at_highest_bit;
 pub use morton::morton_code;
 pub use nearest::Nearest;
+pub use sort::sorted_codes;
 
 use crate::math::Aabb;
 use std::ops::Range;

@@ -10,8 +10,8 @@ mod moments;
 mod tree;
 
 pub use dual::{
-    BlockView, DualAccuracy, DualTree, GROUPS, LatticeTargets, Outcome, PointTargets, QueryBlock, SourceKind,
-    Sources, Targets,
+    BlockView, Cells, Decided, DualAccuracy, DualTree, GROUPS, LatticeTargets, NearLeaf, Outcome,
+    PointTargets, QueryBlock, SourceKind, Sources, Targets,
 };
 pub use expansion::Order;
 pub use kernel::{Kernel, Lanes, Quadrature};

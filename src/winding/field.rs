@@ -1,12 +1,14 @@
-use super::error_model::{CLOUD_ERROR, COARSE_BETA, ErrorModel, FINE_BETA, SOUP_ERROR};
+use super::cloud_field::CloudField;
+use super::error_model::{CLOUD_ERROR, ErrorModel, SOUP_ERROR};
+use super::many::{MANY, Many};
 use super::soup_field::{HALF, SoupField};
 use super::triangles::Triangles;
 use crate::data::{
-    BLOCK, Cancelled, Grid, Lattice, LatticeError, Monitor, OrientedCloud, OutOfMemory, Shape, fill_blocks,
-    fill_in_blocks, for_each_lattice_block, zeroed,
+    BLOCK, Cancelled, Grid, Lattice, LatticeError, Monitor, OutOfMemory, Shape, fill_blocks, fill_in_blocks,
+    for_each_lattice_block, set_bit, zeroed,
 };
 use crate::math::{Aabb, Vec3};
-use crate::treecode::{Order, Scratch, Tree, TreeConfig};
+use crate::treecode::{DualAccuracy, LatticeTargets, Order, PointTargets, Scratch, Tree, TreeConfig};
 use serde::Serialize;
 use std::sync::OnceLock;
 
@@ -112,20 +114,21 @@ pub struct WindingField {
 
 enum Engine {
     Soup(Box<SoupField>),
-    Cloud(Tree<OrientedCloud>),
+    Cloud(Box<CloudField>),
 }
 
 /// Below this tolerance the far field's 32-bit floats are not good enough, and exact sums take over.
 const FINEST_EXPANSION: f64 = 1e-5;
 
 impl WindingField {
-    /// Builds the field, in parallel: for a soup in time linear in its triangles, for a cloud about one sort.
+    /// Builds the field, in parallel, in time linear in the triangles or points; what single points need besides, when
+    /// the first of them is asked for.
     pub fn new(shape: impl Into<Shape>, config: FieldConfig) -> WindingField {
         let shape = shape.into();
         let config = TreeConfig { leaf_size: config.leaf_size };
         let engine = match &shape {
             Shape::Soup(soup) => Engine::Soup(Box::new(SoupField::new(soup.clone(), &config))),
-            Shape::Cloud(cloud) => Engine::Cloud(Tree::build(&**cloud, &config)),
+            Shape::Cloud(cloud) => Engine::Cloud(Box::new(CloudField::new(cloud.clone(), config))),
         };
         let report = report(&shape, &engine);
         WindingField { bounds: shape.bounds(), shape, config, engine, of_paper: OnceLock::new(), report }
@@ -151,22 +154,23 @@ impl WindingField {
         of_paper
             + match &self.engine {
                 Engine::Soup(soup) => soup.bytes(),
-                Engine::Cloud(tree) => tree.bytes(),
+                Engine::Cloud(cloud) => cloud.bytes(),
             }
     }
 
-    /// Points of a soup whose inside test needed an exact sum, in all tests so far.
+    /// Points whose inside test needed an exact sum, in all tests so far; of a cloud, in those of many points.
     pub fn refined(&self) -> usize {
         match &self.engine {
             Engine::Soup(soup) => soup.refined(),
-            Engine::Cloud(_) => 0,
+            Engine::Cloud(cloud) => cloud.refined(),
         }
     }
 
-    /// Builds ahead of time what queries at scattered points need.
+    /// Builds ahead of time what queries at scattered points need that are asked for one by one.
     pub fn prepare_points(&self) {
-        if let Engine::Soup(soup) = &self.engine {
-            soup.prepare_points();
+        match &self.engine {
+            Engine::Soup(soup) => soup.prepare_points(),
+            Engine::Cloud(cloud) => drop(cloud.few()),
         }
     }
 
@@ -177,8 +181,8 @@ impl WindingField {
 
     /// [`WindingField::at`] with scratch space that many queries share.
     pub fn at_with(&self, q: Vec3, accuracy: Accuracy, scratch: &mut Scratch) -> f64 {
-        if let (Engine::Cloud(tree), Some((order, beta))) = (&self.engine, self.expansion_for(accuracy)) {
-            return tree.at(q, order, beta, scratch);
+        if let (Engine::Cloud(cloud), Some((order, beta))) = (&self.engine, self.expansion_for(accuracy)) {
+            return cloud.few().at(q, order, beta, scratch);
         }
         let mut value = [0.0];
         self.at_block(&[q], &mut value, accuracy, scratch);
@@ -193,11 +197,11 @@ impl WindingField {
                 self.of_paper().at_block(points, values, order, beta, scratch);
             }
             (Engine::Soup(soup), _, _) => soup.values(points, soup.fraction_by(expansion), values, scratch),
-            (Engine::Cloud(tree), Some((order, beta)), _) => {
-                tree.at_block(points, values, order, beta, scratch);
+            (Engine::Cloud(cloud), Some((order, beta)), _) => {
+                cloud.few().at_block(points, values, order, beta, scratch);
             }
-            (Engine::Cloud(tree), None, _) => {
-                points.iter().zip(values).for_each(|(q, value)| *value = tree.direct(*q));
+            (Engine::Cloud(cloud), None, _) => {
+                points.iter().zip(values).for_each(|(q, value)| *value = cloud.few().direct(*q));
             }
         }
     }
@@ -222,6 +226,20 @@ impl WindingField {
         }
     }
 
+    /// What evaluates many points at once, and with which parameters, if anything does.
+    fn many_for(&self, accuracy: Accuracy) -> Option<(&Many, DualAccuracy)> {
+        let Accuracy::Tolerance(tolerance) = accuracy else { return None };
+        let many = self.many()?;
+        DualAccuracy::within(tolerance).map(|accuracy| (many, accuracy))
+    }
+
+    fn many(&self) -> Option<&Many> {
+        match &self.engine {
+            Engine::Soup(soup) => soup.many.as_ref(),
+            Engine::Cloud(cloud) => Some(&cloud.many),
+        }
+    }
+
     fn error_model(&self) -> ErrorModel {
         match self.shape {
             Shape::Soup(_) => SOUP_ERROR,
@@ -239,6 +257,15 @@ impl WindingField {
         accuracy: Accuracy,
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, FieldError> {
+        if let Some((many, tolerance)) = self.many_for(accuracy).filter(|_| points.len() >= MANY) {
+            if let Engine::Soup(soup) = &self.engine {
+                soup.prepare_many_points();
+                return Ok(soup.many_values(many, points, &tolerance, monitor)?);
+            }
+            let mut values = zeroed(points.len())?;
+            many.add(&PointTargets::new(points), &tolerance, &mut values, monitor)?;
+            return Ok(values);
+        }
         let mut values = zeroed(points.len())?;
         monitor.report(0.0, "winding numbers")?;
         match (accuracy, &self.engine) {
@@ -272,14 +299,18 @@ impl WindingField {
     ) -> Result<Grid<f64>, FieldError> {
         if let (Engine::Soup(soup), Accuracy::Tolerance(tolerance)) = (&self.engine, accuracy) {
             let by = soup.fraction_by(self.expansion_for(accuracy));
-            return Ok(Grid {
-                lattice: *lattice,
-                values: soup.lattice_values(lattice, tolerance, by, monitor)?,
-            });
+            let values = soup.lattice_values(lattice, tolerance, by, self.many_for(accuracy), monitor)?;
+            return Ok(Grid { lattice: *lattice, values });
+        }
+        if let Some((many, accuracy)) = self.many_for(accuracy) {
+            let mut values = zeroed(lattice.len())?;
+            many.add(&LatticeTargets::new(lattice), &accuracy, &mut values, monitor)?;
+            return Ok(Grid { lattice: *lattice, values });
         }
         let mut values = zeroed(lattice.len())?;
-        if matches!(self.engine, Engine::Soup(_)) {
-            self.of_paper();
+        match &self.engine {
+            Engine::Soup(_) => drop(self.of_paper()),
+            Engine::Cloud(cloud) => drop(cloud.few()),
         }
         let block = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
             self.at_block(points, results, accuracy, scratch);
@@ -303,8 +334,8 @@ impl WindingField {
                 self.of_paper().gradient(q, order, beta, scratch)
             }
             (Engine::Soup(soup), expansion, _) => soup.gradient(q, soup.fraction_by(expansion), scratch),
-            (Engine::Cloud(tree), Some((order, beta)), _) => tree.gradient(q, order, beta, scratch),
-            (Engine::Cloud(tree), None, _) => tree.direct_gradient(q),
+            (Engine::Cloud(cloud), Some((order, beta)), _) => cloud.few().gradient(q, order, beta, scratch),
+            (Engine::Cloud(cloud), None, _) => cloud.few().direct_gradient(q),
         }
     }
 
@@ -318,8 +349,10 @@ impl WindingField {
         accuracy: Accuracy,
         monitor: &dyn Monitor,
     ) -> Result<Vec<Vec3>, FieldError> {
-        if let (Accuracy::Explicit { .. }, Engine::Soup(_)) = (accuracy, &self.engine) {
-            self.of_paper(); // once, not by every thread
+        // Once, not by every thread.
+        match (accuracy, &self.engine) {
+            (Accuracy::Explicit { .. }, Engine::Soup(_)) => drop(self.of_paper()),
+            _ => self.prepare_points(),
         }
         let value = |i: usize, scratch: &mut Scratch| self.gradient_with(points[i], accuracy, scratch);
         let mut gradients = zeroed(points.len())?;
@@ -335,6 +368,20 @@ impl WindingField {
     pub fn contains(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<bool>, FieldError> {
         let mut inside = zeroed(points.len())?;
         monitor.report(0.0, "inside test")?;
+        match &self.engine {
+            _ if points.len() < MANY => {}
+            Engine::Cloud(cloud) => {
+                let mut set = |i: usize, is_inside: bool| inside[i] = is_inside;
+                cloud.classify(&PointTargets::new(points), &|i| points[i], HALF, monitor, &mut set)?;
+                return Ok(inside);
+            }
+            Engine::Soup(soup) => {
+                if let Some(many) = &soup.many {
+                    soup.prepare_many_points();
+                    return Ok(soup.many_inside(many, points, HALF, monitor)?);
+                }
+            }
+        }
         self.prepare_points();
         let block = |start: usize, results: &mut [bool], scratch: &mut Scratch| match &self.engine {
             Engine::Cloud(_) => {
@@ -362,19 +409,20 @@ impl WindingField {
         threshold: f64,
         monitor: &dyn Monitor,
     ) -> Result<Vec<u8>, FieldError> {
-        if let Engine::Soup(soup) = &self.engine
-            && soup.is_certified()
-        {
-            return soup.lattice_bits(lattice, threshold, monitor);
+        match &self.engine {
+            Engine::Soup(soup) => match &soup.many {
+                Some(many) => soup.many_bits(many, lattice, threshold, monitor),
+                None => soup.lattice_bits(lattice, threshold, monitor),
+            },
+            Engine::Cloud(cloud) => {
+                let mut bits = zeroed(lattice.len().div_ceil(8))?;
+                let mut set = |index: usize, inside: bool| set_bit(&mut bits, index, inside);
+                let point = |index: usize| lattice.point(lattice.sample(index));
+                let targets = LatticeTargets::new(lattice);
+                cloud.classify(&targets, &point, threshold, monitor, &mut set)?;
+                Ok(bits)
+            }
         }
-        let mut bits = zeroed(lattice.len().div_ceil(8))?;
-        self.prepare_points();
-        let block = |points: &[Vec3], results: &mut [bool], scratch: &mut Scratch| {
-            self.exceeds_block(points, threshold, results, scratch);
-        };
-        let store = |index: usize, inside: bool| bits[index / 8] |= u8::from(inside) << (index % 8);
-        for_each_lattice_block(lattice, block, store, "inside test", monitor)?;
-        Ok(bits)
     }
 
     /// Whether `q` is inside.
@@ -390,10 +438,7 @@ impl WindingField {
                 self.exceeds_block(&[q], threshold, &mut result, scratch);
                 result[0]
             }
-            Engine::Cloud(tree) => {
-                let w = tree.at(q, Order::Two, COARSE_BETA, scratch);
-                decide(tree, q, w, threshold, scratch)
-            }
+            Engine::Cloud(cloud) => cloud.exceeds(q, threshold, scratch),
         }
     }
 
@@ -407,13 +452,7 @@ impl WindingField {
     ) {
         match &self.engine {
             Engine::Soup(soup) => soup.classify(points, threshold, results, scratch),
-            Engine::Cloud(tree) => {
-                let mut values = [0.0; BLOCK];
-                tree.at_block(points, &mut values[..points.len()], Order::Two, COARSE_BETA, scratch);
-                for ((q, w), result) in points.iter().zip(values).zip(results) {
-                    *result = decide(tree, *q, w, threshold, scratch);
-                }
-            }
+            Engine::Cloud(cloud) => cloud.exceeds_block(points, threshold, results, scratch),
         }
     }
 
@@ -427,23 +466,13 @@ impl WindingField {
     }
 }
 
-/// Decides by the coarse value `w` at `q`, or by finer ones while these are within their error of the threshold.
-fn decide(tree: &Tree<OrientedCloud>, q: Vec3, w: f64, threshold: f64, scratch: &mut Scratch) -> bool {
-    let certain = |w: f64, beta: f64| (w - threshold).abs() > CLOUD_ERROR.error(beta) || w.is_nan();
-    if certain(w, COARSE_BETA) {
-        return w >= threshold;
-    }
-    let w = tree.at(q, Order::Two, FINE_BETA, scratch);
-    if certain(w, FINE_BETA) { w >= threshold } else { tree.direct(q) >= threshold }
-}
-
 fn report(shape: &Shape, engine: &Engine) -> FieldReport {
     match engine {
-        Engine::Cloud(tree) => FieldReport {
+        Engine::Cloud(cloud) => FieldReport {
             method: "fast winding number of points",
             elements: shape.len(),
-            nodes: tree.nodes(),
-            bytes: tree.bytes(),
+            nodes: cloud.many.clusters(),
+            bytes: cloud.bytes(),
             ..FieldReport::default()
         },
         Engine::Soup(soup) => {

@@ -2,13 +2,14 @@
 use super::boundary::Need;
 use super::curtain::LANES;
 use super::field::FieldError;
+use super::many::Many;
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{FractionBy, SoupField, TIE};
 use crate::data::{
     Cancelled, Lattice, Monitor, for_each_lattice_block, map_items, map_parts, map_tasks, zeroed,
 };
 use crate::math::Vec3;
-use crate::treecode::Scratch;
+use crate::treecode::{DualAccuracy, LatticeTargets, Scratch};
 use std::ops::Range;
 
 /// Planes that are classified together are a whole number of slabs and of blocks; as many as this memory for them allows.
@@ -27,12 +28,13 @@ const CLASSIFICATION_ERROR: f64 = 0.1;
 const MOST_CROSSINGS: f64 = 32_000.0;
 
 impl SoupField {
-    /// Winding numbers at every sample, to a tolerance.
+    /// Winding numbers at every sample, to a tolerance; with `loose_by` the fraction is left to that.
     pub(super) fn lattice_values(
         &self,
         lattice: &Lattice,
         tolerance: f64,
         by: FractionBy,
+        loose_by: Option<(&Many, DualAccuracy)>,
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, FieldError> {
         let mut values = zeroed::<f64>(lattice.len())?;
@@ -47,7 +49,9 @@ impl SoupField {
         let planes = 0..lattice.counts[2];
         let on_surface =
             for_each_slab(&scan, planes.clone(), &mut values, SLAB_PLANES, fill, stage, monitor)?;
-        if !self.closure.loose.is_empty() {
+        if let Some((many, accuracy)) = loose_by {
+            many.add(&LatticeTargets::new(lattice), &accuracy, &mut values, monitor)?;
+        } else if !self.closure.loose.is_empty() {
             let fractions = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
                 self.fractions(points, by, results, scratch);
             };

@@ -2,14 +2,17 @@
 //!
 //! `exact` is the definition and the oracle. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
 //! (`scan` on lattices, `locate` over `columns` at scattered points) and a fraction of what closes it (`chain`, `closure`,
-//! `curtain`), summed on lattices by `boundary`, and spared most inside tests by `answers`; a cloud's is the tree of Barill et al. 2018.
-//! `hierarchy` and `parity` are the methods that the paper compares itself with.
+//! `curtain`), summed on lattices by `boundary` and spared most inside tests of scattered points by `answers`. Clouds
+//! (`cloud_field`) and triangles that are not worth closing (`loose`) are summed by a dual tree where many points are asked
+//! for at once (`many`), and by the tree of Barill et al. 2018 at few. `hierarchy` and `parity` are the methods that the paper
+//! compares itself with.
 mod angle_product;
 mod answers;
 mod boundary;
 mod buckets;
 mod chain;
 mod closure;
+mod cloud_field;
 mod columns;
 mod curtain;
 mod dipoles;
@@ -21,6 +24,8 @@ mod gradient;
 mod hierarchy;
 mod lattice;
 mod locate;
+mod loose;
+mod many;
 mod near;
 mod parity;
 mod scan;

@@ -8,6 +8,7 @@ use super::exact::winding_of_soup;
 use super::facets::Facets;
 use super::gradient::edge_gradient;
 use super::locate::Locator;
+use super::many::Many;
 use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
 use crate::bvh::WIDTH;
@@ -37,7 +38,11 @@ pub struct SoupField {
     pub(super) boundary: BoundaryField,
     /// What the fraction is summed over, and the tree over it if it is worth one.
     sources: Triangles,
-    tree: Option<Tree<Triangles>>,
+    needs_tree: bool,
+    tree: OnceLock<Tree<Triangles>>,
+    config: TreeConfig,
+    /// The same sources for many points at once, if some are loose.
+    pub(super) many: Option<Many>,
     locator: OnceLock<Locator>,
     answers: OnceLock<Answers>,
     refined: AtomicUsize,
@@ -68,9 +73,13 @@ impl SoupField {
         let needs_tree = !closure.loose.is_empty() || curtain.edges() > FEW_EDGES;
         let closure = Arc::new(closure);
         let sources = Triangles::of_fraction(soup.clone(), closure.clone());
+        let many = (!closure.loose.is_empty()).then(|| Many::new(Arc::new(sources.clone())));
         SoupField {
             boundary: BoundaryField::new(curtain.cycles(), &closure.caps),
-            tree: needs_tree.then(|| Tree::build(&sources, config)),
+            needs_tree,
+            tree: OnceLock::new(),
+            config: *config,
+            many,
             soup,
             closure,
             curtain,
@@ -111,12 +120,22 @@ impl SoupField {
     pub fn bytes(&self) -> usize {
         let locator = self.locator.get().map_or(0, Locator::bytes);
         let answers = self.answers.get().map_or(0, |a| a.of_cells.len());
-        let tree = self.tree.as_ref().map_or(0, Tree::bytes);
-        self.closure.bytes() + self.boundary.bytes() + tree + locator + answers
+        let many = self.many.as_ref().map_or(0, Many::bytes);
+        let tree = self.tree.get().map_or(0, Tree::bytes);
+        self.closure.bytes() + self.boundary.bytes() + tree + many + locator + answers
     }
 
     pub fn nodes(&self) -> usize {
-        self.tree.as_ref().map_or(0, Tree::nodes)
+        self.many.as_ref().map_or(0, Many::clusters) + self.tree.get().map_or(0, Tree::nodes)
+    }
+
+    /// The tree over the sources of the fraction, if it is worth one; built when it is first needed, outside of the cell
+    /// that holds it, as the [`SoupField::index`].
+    fn tree(&self) -> Option<&Tree<Triangles>> {
+        if self.needs_tree && self.tree.get().is_none() {
+            let _ = self.tree.set(Tree::build(&self.sources, &self.config));
+        }
+        self.tree.get()
     }
 
     pub(super) fn facets(&self) -> Facets<'_> {
@@ -126,7 +145,7 @@ impl SoupField {
     /// How a fraction of the given expansion is summed, or of none: exactly.
     pub fn fraction_by(&self, expansion: Option<(Order, f64)>) -> FractionBy {
         match expansion {
-            Some((order, beta)) if self.tree.is_some() => FractionBy::Tree { order, beta },
+            Some((order, beta)) if self.needs_tree => FractionBy::Tree { order, beta },
             _ => FractionBy::Edges,
         }
     }
@@ -134,11 +153,12 @@ impl SoupField {
     /// Fractions at up to [`BLOCK`] points that lie close together, to which the crossings of the surface, for
     /// [`FractionBy::Tree`] those of the caps too, are to be added.
     pub fn fractions(&self, points: &[Vec3], by: FractionBy, results: &mut [f64], scratch: &mut Scratch) {
-        match (by, &self.tree) {
-            (FractionBy::Tree { order, beta }, Some(tree)) => {
-                tree.at_block(points, results, order, beta, scratch);
-            }
-            _ => self.exact_fractions(points, results),
+        if let FractionBy::Tree { order, beta } = by
+            && let Some(tree) = self.tree()
+        {
+            tree.at_block(points, results, order, beta, scratch);
+        } else {
+            self.exact_fractions(points, results);
         }
     }
 
@@ -194,7 +214,9 @@ impl SoupField {
         if !q.is_finite() {
             return Vec3::NAN;
         }
-        if let (FractionBy::Tree { order, beta }, Some(tree)) = (by, &self.tree) {
+        if let FractionBy::Tree { order, beta } = by
+            && let Some(tree) = self.tree()
+        {
             return tree.gradient(q, order, beta, scratch);
         }
         let sides = |t: &u32| {
@@ -209,6 +231,22 @@ impl SoupField {
     pub fn prepare_points(&self) {
         self.locator();
         self.answers();
+        self.tree();
+    }
+
+    /// Builds what many points at once need, if it is not there.
+    pub fn prepare_many_points(&self) {
+        self.locator();
+        self.answers();
+    }
+
+    /// Crossings of the surface and the caps by the ray from `q`; none if `q` lies on the surface.
+    pub(super) fn crossings_at(&self, q: Vec3) -> Option<i32> {
+        let locator = self.locator();
+        locator.at_a_glance(q).or_else(|| {
+            let location = locator.locate(self.facets(), q, true);
+            location.touching.is_empty().then_some(location.crossings)
+        })
     }
 
     /// Crossings of the caps by the ray from `q` along −x.
@@ -258,7 +296,14 @@ impl SoupField {
         facets.iter().map(|t| self.soup.corners(*t as usize)).collect()
     }
 
-    /// Whether a point on the surface counts as inside: a region that touches it is. Beside it `least` is the least number
+    /// Whether a point on the surface counts as inside: a region that touches it is.
+    pub(super) fn touches_inside(&self, q: Vec3, threshold: f64) -> bool {
+        let location = self.locator().locate(self.facets(), q, true);
+        let principal = self.principal(q, &location.touching);
+        touches_inside(q, &self.corners(&location.touching), principal, threshold)
+    }
+
+    /// [`SoupField::touches_inside`] without the fraction, of a soup without loose components. Beside the point `least` is the least number
     /// of crossings, of surface and caps, that is.
     pub(super) fn is_inside_on_surface(&self, q: Vec3, least: i32, threshold: f64) -> bool {
         let location = self.locator().locate(self.facets(), q, true);

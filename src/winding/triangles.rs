@@ -12,6 +12,7 @@ use wide::f64x4;
 const ERROR: f64 = 16.0 * f64::EPSILON;
 
 /// All triangles of a soup; or with a closure the sources of the soup's fraction: its caps, then its loose triangles.
+#[derive(Clone)]
 pub struct Triangles {
     soup: Arc<TriangleSoup>,
     closure: Option<Arc<Closure>>,
@@ -21,6 +22,11 @@ impl Triangles {
     /// All triangles of a soup: what the paper's evaluator sums.
     pub fn new(soup: Arc<TriangleSoup>) -> Triangles {
         Triangles { soup, closure: None }
+    }
+
+    /// How many caps come first.
+    pub(super) fn caps(&self) -> usize {
+        self.closure.as_ref().map_or(0, |c| c.caps.len())
     }
 
     pub(super) fn of_fraction(soup: Arc<TriangleSoup>, closure: Arc<Closure>) -> Triangles {
@@ -71,8 +77,7 @@ impl Kernel for Triangles {
     }
 
     fn block(&self, members: [Option<usize>; WIDTH]) -> TriangleBlock {
-        let count = self.closure.as_ref().map_or(0, |c| c.caps.len());
-        let is_cap = |k: &usize| members[*k].is_some_and(|i| i < count);
+        let is_cap = |k: &usize| members[*k].is_some_and(|i| i < self.caps());
         let caps = (0..WIDTH).filter(is_cap).fold(0, |bits, k| bits | 1 << k);
         TriangleBlock { caps, ..TriangleBlock::new(members.map(|m| m.map(|i| self.corners(i)))) }
     }

@@ -1,11 +1,13 @@
 //! Times and errors of the dual-tree evaluator on the bunny as it is, on its triangles moved apart, and on its barycentres:
-//! `RAYON_NUM_THREADS=1 cargo run --release --example dual -- [RESOLUTION] [ORDER DEGREE BETA ETA]…`.
+//! `RAYON_NUM_THREADS=1 cargo run --release --example dual -- [RESOLUTION] [ORDER DEGREE ERROR]…`.
 use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent, TriangleSoup};
 use fast_winding::math::Vec3;
 use fast_winding::treecode::{
     DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Sources, Targets,
 };
-use fast_winding::winding::{Accuracy, FieldConfig, WindingField, winding_of_cloud, winding_of_soup};
+use fast_winding::winding::{
+    Accuracy, FieldConfig, Triangles, WindingField, winding_of_cloud, winding_of_soup,
+};
 use std::fs;
 use std::sync::Arc;
 
@@ -14,7 +16,7 @@ mod common;
 
 const LEAF_SIZE: usize = 8;
 /// What all samples are compared with.
-const REFERENCE: DualAccuracy = DualAccuracy { order: 3, degree: 5, beta: 10.0, eta: 12.0 };
+const REFERENCE: DualAccuracy = DualAccuracy { order: 3, degree: 5, error: 1e-8 };
 /// About so many samples of the reference are compared with the direct sum.
 const CHECKED: usize = 200;
 
@@ -23,25 +25,22 @@ fn main() {
         std::env::args().skip(1).map(|a| a.parse().expect("arguments are numbers")).collect();
     let resolution = arguments.first().map_or(100, |r| *r as usize);
     let presets = match &arguments[1.min(arguments.len())..] {
-        [_, ..] => arguments[1..].chunks_exact(4).map(explicit).collect(),
+        [_, ..] => arguments[1..].chunks_exact(3).map(explicit).collect(),
         [] => vec![DualAccuracy::FAST, DualAccuracy::DEFAULT, DualAccuracy::FINE, DualAccuracy::FINER],
     };
     let bunny = common::bunny();
     let loose = apart(&bunny);
     let cloud = common::barycentre_cloud(&bunny, 2);
-    measure("bunny", &presets, resolution, bunny.clone(), bunny.clone(), |q| winding_of_soup(&bunny, q));
-    measure("loose", &presets, resolution, loose.clone(), loose.clone(), |q| winding_of_soup(&loose, q));
+    measure("bunny", &presets, resolution, of(&bunny), bunny.clone(), |q| winding_of_soup(&bunny, q));
+    measure("loose", &presets, resolution, of(&loose), loose.clone(), |q| winding_of_soup(&loose, q));
     let in_cloud: &OrientedCloud = &cloud;
-    measure("cloud", &presets, resolution, cloud.clone(), cloud.clone(), |q| winding_of_cloud(in_cloud, q));
+    measure("cloud", &presets, resolution, Arc::new(cloud.clone()), cloud.clone(), |q| {
+        winding_of_cloud(in_cloud, q)
+    });
 }
 
 fn explicit(parameters: &[f64]) -> DualAccuracy {
-    DualAccuracy {
-        order: parameters[0] as usize,
-        degree: parameters[1] as usize,
-        beta: parameters[2],
-        eta: parameters[3],
-    }
+    DualAccuracy { order: parameters[0] as usize, degree: parameters[1] as usize, error: parameters[2] }
 }
 
 /// Every triangle with corners of its own, moved by up to a 300th of the diagonal.
@@ -57,15 +56,18 @@ fn apart(soup: &TriangleSoup) -> TriangleSoup {
     TriangleSoup::new(positions, triangles).expect("corners are finite")
 }
 
-fn measure<S: Sources + Send>(
+fn of(soup: &TriangleSoup) -> Arc<Triangles> {
+    Arc::new(Triangles::new(Arc::new(soup.clone())))
+}
+
+fn measure(
     name: &str,
     presets: &[DualAccuracy],
     resolution: usize,
-    sources: S,
+    sources: Arc<dyn Sources>,
     shape: impl Into<Shape>,
     exact: impl Fn(Vec3) -> f64,
 ) {
-    let sources = Arc::new(sources);
     let field = WindingField::new(shape, FieldConfig::default());
     let bounds = field.bounds();
     let build = || {
@@ -102,11 +104,10 @@ fn measure<S: Sources + Send>(
             best(|| run(&tree, &PointTargets::new(&scattered), scattered.len(), *accuracy));
         let (rms, max) = difference(values.iter(), reference.iter());
         println!(
-            "  p {} q {} beta {} eta {}: lattice {:.0} ns, scattered {:.0} ns, rms {rms:.1e}, max {max:.1e}, bound {bound:.1e}",
+            "  p {} q {} error {:.0e}: lattice {:.0} ns, scattered {:.0} ns, rms {rms:.1e}, max {max:.1e}, bound {bound:.1e}",
             accuracy.order,
             accuracy.degree,
-            accuracy.beta,
-            accuracy.eta,
+            accuracy.error,
             1e9 * time / lattice.len() as f64,
             1e9 * time_scattered / lattice.len() as f64,
         );
@@ -131,23 +132,18 @@ fn best(run: impl Fn() -> (f64, Vec<f64>, f64)) -> (f64, Vec<f64>, f64) {
 }
 
 /// Seconds, values and the mean bound.
-fn run<S: Sources, T: Targets>(
-    tree: &DualTree<S>,
-    targets: &T,
-    count: usize,
-    accuracy: DualAccuracy,
-) -> (f64, Vec<f64>, f64) {
+fn run(tree: &DualTree, targets: &dyn Targets, count: usize, accuracy: DualAccuracy) -> (f64, Vec<f64>, f64) {
     let mut results = vec![0.0; count];
     let (mut sum, mut blocks) = (0.0, 0);
     let start = seconds();
-    let store = |indices: &[usize], outcome: Outcome<'_>| {
+    let mut store = |indices: &[usize], outcome: Outcome<'_>| {
         if let Outcome::Values { values, bound } = outcome {
             indices.iter().zip(values).for_each(|(i, v)| results[*i] = *v);
             sum += bound;
             blocks += 1;
         }
     };
-    tree.evaluate(targets, &accuracy, &Silent, |_, _, _| false, store).expect("nothing cancels");
+    tree.evaluate(targets, &accuracy, &Silent, None, &mut store).expect("nothing cancels");
     (seconds() - start, results, sum / f64::from(blocks))
 }
 

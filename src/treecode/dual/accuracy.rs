@@ -12,58 +12,55 @@ pub struct DualAccuracy {
     pub order: usize,
     /// Of the Taylor polynomials, 1 to 5.
     pub degree: usize,
-    /// Distance, in radii of a cluster, from which its multipole series is used.
-    pub beta: f64,
-    /// Distance, in radii of a block of queries, from which a Taylor polynomial serves all of it.
-    pub eta: f64,
+    /// What the series of one cluster may leave out at a query, and a Taylor polynomial of it: an estimate from above.
+    /// Clusters nearer than that allows are opened. Errors of many clusters have many signs: their sum is some times this.
+    pub error: f64,
 }
 
 impl DualAccuracy {
-    pub const FAST: DualAccuracy = DualAccuracy { order: 2, degree: 4, beta: 1.5, eta: 1.5 };
-    pub const DEFAULT: DualAccuracy = DualAccuracy { order: 2, degree: 4, beta: 2.0, eta: 2.0 };
-    pub const FINE: DualAccuracy = DualAccuracy { order: 2, degree: 4, beta: 2.5, eta: 3.0 };
-    pub const FINER: DualAccuracy = DualAccuracy { order: 3, degree: 5, beta: 3.0, eta: 3.5 };
+    pub const FAST: DualAccuracy = DualAccuracy { order: 2, degree: 4, error: 1e-2 };
+    pub const DEFAULT: DualAccuracy = DualAccuracy { order: 3, degree: 5, error: 2e-3 };
+    pub const FINE: DualAccuracy = DualAccuracy { order: 3, degree: 5, error: 2e-4 };
+    pub const FINER: DualAccuracy = DualAccuracy { order: 3, degree: 5, error: 1e-5 };
 
-    /// The fastest parameters whose largest error, as measured on scans, is below a tolerance: for triangles, or for points.
-    /// None if only the direct sum is that exact. Not a guarantee: that is what the bounds of results are for.
-    pub fn within(tolerance: f64, kind: SourceKind) -> Option<DualAccuracy> {
-        let error = |(_, triangles, points): &(DualAccuracy, f64, f64)| match kind {
-            SourceKind::Triangles => *triangles,
-            SourceKind::Points => *points,
-        };
-        LADDER.iter().find(|step| MARGIN * error(step) <= tolerance).map(|step| step.0)
+    /// The fastest parameters whose largest error, as measured on scans, is below a tolerance; none if only the direct sum is
+    /// that exact. Not a guarantee: that is what the bounds of results are for.
+    pub fn within(tolerance: f64) -> Option<DualAccuracy> {
+        if tolerance.is_nan() || tolerance < FINEST {
+            return None;
+        }
+        let error = 2e-4 * libm::pow(1e3 * tolerance, 1.45);
+        Some(if tolerance > COARSE {
+            DualAccuracy { order: 2, degree: 4, error: 0.5 * error }
+        } else {
+            DualAccuracy { order: 3, degree: 5, error }
+        })
     }
 
-    /// The nearest parameters that make sense: the series converge for β and η above 1.
+    /// The nearest parameters that make sense.
     pub(super) fn sane(self) -> DualAccuracy {
-        let at_least = |x: f64| if x >= NEAREST { x } else { NEAREST };
         DualAccuracy {
             order: self.order.min(super::MAX_ORDER),
             degree: self.degree.clamp(1, super::MAX_DEGREE),
-            beta: at_least(self.beta),
-            eta: at_least(self.eta),
+            error: if self.error >= LEAST_ERROR { self.error } else { LEAST_ERROR },
         }
     }
 }
 
-/// Parameters and the largest errors seen with them, of triangles and of points: of the Stanford bunny with its triangles as
-/// they are and moved apart, and of every second of its barycentres, against the last step at all samples of lattices of 32 to 100
-/// cells; of the last step, against direct sums at 200 samples, of which the largest is doubled. Dipoles are worse as their fields have poles. What 32-bit floats cost is some 3e-6.
-const LADDER: [(DualAccuracy, f64, f64); 8] = [
-    (DualAccuracy::FAST, 1.7e-2, 2.4e-1),
-    (DualAccuracy::DEFAULT, 5.6e-3, 1.3e-1),
-    (DualAccuracy::FINE, 1.2e-3, 1.7e-2),
-    (DualAccuracy::FINER, 2.7e-4, 5.1e-3),
-    (DualAccuracy { order: 3, degree: 5, beta: 4.0, eta: 4.5 }, 7.6e-5, 9.5e-4),
-    (DualAccuracy { order: 3, degree: 5, beta: 5.0, eta: 6.0 }, 3.1e-5, 2.5e-4),
-    (DualAccuracy { order: 3, degree: 5, beta: 7.0, eta: 9.0 }, 8e-6, 4.5e-5),
-    (DualAccuracy { order: 3, degree: 5, beta: 10.0, eta: 12.0 }, 6e-6, 6e-6),
-];
-/// How much larger errors are allowed for than those seen.
-const MARGIN: f64 = 1.5;
+/// 32-bit floats lose more.
+const LEAST_ERROR: f64 = 1e-9;
 
-/// Closer to 1 the error bounds become useless.
-const NEAREST: f64 = 1.05;
+// Largest errors on a lattice of 100³ over the bunny's triangles moved apart, and over its vertices as dipoles, against direct
+// sums; what is fitted above leaves a margin of 1.3 to 1.6:
+//   order 3, degree 5: 3.5e-3 and 3.2e-3 for an error of 2e-3, 1.3e-3 and 1.3e-3 for 5e-4, 4.6e-4 and 4.4e-4 for 1e-4,
+//     1.9e-4 and 1.6e-4 for 3e-5, 9.6e-5 and 8.2e-5 for 1e-5, 1.9e-5 and 1.6e-5 for 1e-6, 6.9e-6 and 7.2e-6 for 3e-7;
+//   order 2, degree 4: 2.8e-2 and 5.0e-2 for 2e-2, 1.7e-2 and 2.2e-2 for 1e-2, 1.1e-2 and 1.1e-2 for 5e-3, and below that
+//     more time for the same.
+
+/// Below this tolerance 32-bit floats, which lose some 3e-6, are not good enough.
+const FINEST: f64 = 1e-5;
+/// Above this tolerance short series are fastest.
+const COARSE: f64 = 1.2e-2;
 
 impl Default for DualAccuracy {
     fn default() -> Self {

@@ -1,11 +1,11 @@
 //! Clusters of sources with their multipole moments, bottom-up over a [`Bvh`].
 use super::local::sum_of_lanes;
 use super::moments::{COEFFICIENTS, Moments};
-use super::{Sources, WIDTH};
-use crate::bvh::{Bvh, Child};
-use crate::math::{Aabb, Vec3};
+use super::{SourceKind, Sources, WIDTH};
+use crate::bvh::{Bvh, Child, morton_code};
+use crate::data::{map_items, set_each};
+use crate::math::{Aabb, Vec3, area_vector};
 use crate::treecode::frame::Frame;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::ops::Range;
 use wide::f32x4;
@@ -65,6 +65,9 @@ const ROUND_SUM_UP: f32 = 1.01;
 /// How far a corner can be from what 32-bit floats make of it: √3 · 2⁻²⁵, as coordinates are up to 1/2; and a little more.
 const CORNER_ROUNDING: f64 = 6e-8;
 
+/// Clusters whose moments are one task.
+const PARTS_PER_TASK: usize = 256;
+
 /// A cluster while the tree is being built.
 #[derive(Clone, Copy)]
 struct Part {
@@ -74,25 +77,25 @@ struct Part {
 }
 
 impl Clusters {
-    pub fn build<S: Sources>(sources: &S, leaf_size: usize) -> Clusters {
-        let boxes: Vec<Aabb> =
-            (0..sources.len()).into_par_iter().map(|i| Aabb::around(sources.corners(i))).collect();
-        let bounds = boxes.par_iter().copied().reduce(|| Aabb::EMPTY, Aabb::union);
-        let bvh = Bvh::build(&boxes, leaf_size);
-        drop(boxes);
+    pub fn build(sources: &dyn Sources, leaf_size: usize) -> Clusters {
+        let all = map_items(sources.len(), |i| sources.corners(i));
+        let bounds = Aabb::around(all.iter().flatten().copied());
+        let middle = |i: usize| Aabb::around(all[i]).center();
+        let bvh = Bvh::along_curve(map_items(all.len(), |i| morton_code(middle(i), &bounds)), leaf_size);
         let frame = Frame::around(&bounds);
         let (links, levels) = link(&bvh);
-        let corners = Corners::new(sources, bvh.items(), &frame);
+        let members = map_items(all.len(), |k| Member::new(sources, &all, bvh.items()[k] as usize, &frame));
+        drop(all);
+        let corners = Corners::new(&members, sources.kind());
         let empty = Part { area: 0.0, center: Vec3::ZERO, moments: Moments::ZERO };
         let mut parts = vec![empty; links.len()];
         for level in levels.iter().rev() {
             let (upper, lower) = parts.split_at_mut(level.end);
-            let parts = upper[level.clone()].par_iter_mut().zip(&links[level.clone()]);
-            parts.for_each_init(Vec::new, |members, (part, link)| {
+            set_each(&mut upper[level.clone()], PARTS_PER_TASK, |k, part| {
+                let link = &links[level.start + k];
                 let range = link.range();
                 *part = if link.is_leaf() {
-                    gather(sources, &bvh.items()[range], &frame, members);
-                    Part::of_sources::<S>(members)
+                    Part::of_sources(&members[range], sources.kind())
                 } else {
                     Part::of_parts(&lower[range.start - level.end..range.end - level.end])
                 };
@@ -100,7 +103,7 @@ impl Clusters {
         }
         let spans = spans(&links);
         let (balls, series) =
-            (parts.par_iter().zip(&spans).map(|(part, span)| part.pack(&corners, span))).unzip();
+            map_items(parts.len(), |k| parts[k].pack(&corners, &spans[k])).into_iter().unzip();
         let roots = levels.first().cloned().unwrap_or(0..0);
         Clusters { balls, links, series, roots, items: bvh.items().to_vec(), frame }
     }
@@ -148,7 +151,7 @@ fn spans(links: &[Link]) -> Vec<Range<usize>> {
 }
 
 impl Part {
-    fn of_sources<S: Sources>(members: &[Member]) -> Part {
+    fn of_sources(members: &[Member], kind: SourceKind) -> Part {
         let (mut area, mut weighted, mut middle) = (0.0, Vec3::ZERO, Aabb::EMPTY);
         for Member { corners: [a, b, c], area_vector } in members {
             let own = area_vector.length();
@@ -159,7 +162,7 @@ impl Part {
         let center = narrowed(area, weighted, middle.center());
         let mut moments = Moments::ZERO;
         for Member { corners: [a, b, c], area_vector } in members {
-            if S::POINTS {
+            if kind == SourceKind::Points {
                 moments.add_point(*a - center, *area_vector);
             } else {
                 moments.add_triangle([*a - center, *b - center, *c - center], *area_vector);
@@ -209,15 +212,15 @@ struct Member {
     area_vector: Vec3,
 }
 
-/// Copies sources of a leaf: all at once, as they are anywhere in memory.
-fn gather<S: Sources>(sources: &S, items: &[u32], frame: &Frame, members: &mut Vec<Member>) {
-    let scale = frame.scale * frame.scale;
-    members.clear();
-    members.extend(items.iter().map(|&i| {
-        let [a, b, c] = sources.corners(i as usize);
-        let corners = [frame.local(a), frame.local(b), frame.local(c)];
-        Member { corners, area_vector: scale * sources.area_vector(i as usize) }
-    }));
+impl Member {
+    fn new(sources: &dyn Sources, all: &[[Vec3; 3]], item: usize, frame: &Frame) -> Member {
+        let corners = all[item].map(|corner| frame.local(corner));
+        let area_vector = match sources.kind() {
+            SourceKind::Triangles => area_vector(corners),
+            SourceKind::Points => frame.scale * frame.scale * sources.area_vector(item),
+        };
+        Member { corners, area_vector }
+    }
 }
 
 /// A centre that is exact in 32-bit floats, so that storing it rounds nothing.
@@ -234,18 +237,16 @@ struct Corners {
 }
 
 impl Corners {
-    fn new<S: Sources>(sources: &S, items: &[u32], frame: &Frame) -> Corners {
-        let for_each = if S::POINTS { 1 } else { 3 };
-        let scale = frame.scale * frame.scale / for_each as f64;
-        let corners = (items.par_iter())
-            .flat_map_iter(|&i| {
-                let share = (scale * sources.area_vector(i as usize).length() * ROUND_UP) as f32;
-                sources.corners(i as usize).into_iter().take(for_each).map(move |corner| {
-                    let [x, y, z] = frame.local(corner).to_array().map(|x| x as f32);
-                    [x, y, z, share]
-                })
-            })
-            .collect();
+    fn new(members: &[Member], kind: SourceKind) -> Corners {
+        let for_each = if kind == SourceKind::Points { 1 } else { 3 };
+        let mut corners = Vec::with_capacity(for_each * members.len());
+        for member in members {
+            let share = (member.area_vector.length() / for_each as f64 * ROUND_UP) as f32;
+            corners.extend(member.corners[..for_each].iter().map(|corner| {
+                let [x, y, z] = corner.to_array().map(|x| x as f32);
+                [x, y, z, share]
+            }));
+        }
         Corners { corners, for_each }
     }
 

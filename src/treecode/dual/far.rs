@@ -5,6 +5,7 @@ use super::derivatives::{Derivatives, REDUCED};
 use super::local::{Local, sum_of_lanes};
 use super::moments::COEFFICIENTS;
 use super::place::Place;
+use super::reach::CLASSES;
 use super::{DualAccuracy, WIDTH};
 use wide::f32x4;
 
@@ -19,18 +20,20 @@ impl FarFields {
     pub fn add(
         &mut self,
         clusters: &Clusters,
-        far: &[u32],
+        far: &[Vec<u32>; CLASSES],
         place: &Place,
         accuracy: &DualAccuracy,
         local: &mut Local,
     ) -> f64 {
-        if far.is_empty() {
+        if far.iter().all(Vec::is_empty) {
             return 0.0;
         }
         let mut sums = [f32x4::ZERO; REDUCED];
         let mut error = 0.0;
-        for four in far.chunks(WIDTH) {
-            error += self.add_four(clusters, four, place, accuracy, &mut sums);
+        for (class, far) in far.iter().enumerate() {
+            for four in far.chunks(WIDTH) {
+                error += self.add_four(clusters, four, place, accuracy.class(class), &mut sums);
+            }
         }
         local.add_derivatives(&sums, accuracy.degree);
         ROUND_UP * error
@@ -41,7 +44,7 @@ impl FarFields {
         clusters: &Clusters,
         four: &[u32],
         place: &Place,
-        accuracy: &DualAccuracy,
+        (order, degree): (usize, usize),
         sums: &mut [f32x4; REDUCED],
     ) -> f64 {
         let at = |k: usize| four[if k < four.len() { k } else { 0 }] as usize;
@@ -49,7 +52,7 @@ impl FarFields {
         let ball = |k: usize| &clusters.balls[members[k]];
         let (offset, radius) = place.relative_to([ball(0), ball(1), ball(2), ball(3)]);
         let series = [0, 1, 2, 3].map(|k| &clusters.series[members[k]]);
-        let spread = |k: usize| bounds::spread_of_order(series[k].spread, accuracy.order);
+        let spread = |k: usize| bounds::spread_of_order(series[k].spread, order);
         let spread = [spread(0), spread(1), spread(2), spread(3)];
         // Places beyond the last cluster repeat the first, without area.
         let weight = |k: usize| if k < four.len() { series[k].area } else { 0.0 };
@@ -60,16 +63,16 @@ impl FarFields {
         let inverse = f32x4::splat(1.0) / distance;
         let [a, b, c, d] = series;
         let rows = [&a.coefficients, &b.coefficients, &c.coefficients, &d.coefficients];
-        let coefficients = weighted(rows, area * inverse * inverse, radius * inverse, accuracy.order);
+        let coefficients = weighted(rows, area * inverse * inverse, radius * inverse, order);
         let reach = f32x4::splat(place.radius);
         let unit = [offset[0] * inverse, offset[1] * inverse, offset[2] * inverse];
-        self.derivatives.compute(unit, accuracy.order + 1 + accuracy.degree);
+        self.derivatives.compute(unit, order + 1 + degree);
         let s = reach * inverse;
-        self.derivatives.add_taylor(accuracy.order, accuracy.degree, &coefficients, s, sums);
+        self.derivatives.add_taylor(order, degree, &coefficients, s, sums);
 
         let (inner, outer) = (distance - reach, distance - radius);
-        let left_out = bounds::multipole_tail(area, f32x4::from(spread), radius, inner, accuracy.order)
-            + bounds::taylor_tail(area, reach, outer, accuracy.degree);
+        let left_out = bounds::multipole_tail(area, f32x4::from(spread), radius, inner, order)
+            + bounds::taylor_tail(area, reach, outer, degree);
         let rounding = bounds::largest_field(area, inner - radius);
         sum_of_lanes(left_out) + ROUNDING_OF_TAYLOR * sum_of_lanes(rounding)
     }
@@ -102,6 +105,7 @@ fn weighted(
 mod tests {
     use super::*;
     use crate::math::Vec3;
+    use crate::treecode::dual::reach::LONGEST;
     use crate::treecode::dual::sources::tests::{Dipoles, random};
     use std::f64::consts::PI;
     use wide::f32x4;
@@ -124,7 +128,9 @@ mod tests {
         let frame = clusters.frame;
         let place = Place::around(frame.local(middle), half * frame.scale);
         let mut local = Local::ZERO;
-        let bound = FarFields::default().add(&clusters, &[0], &place, accuracy, &mut local);
+        let mut longest: [Vec<u32>; CLASSES] = Default::default();
+        longest[LONGEST].push(0);
+        let bound = FarFields::default().add(&clusters, &longest, &place, accuracy, &mut local);
         let mut worst: f64 = 0.0;
         for q in queries {
             let offset = (frame.local(q) - place.center) / f64::from(place.radius);
@@ -142,7 +148,7 @@ mod tests {
         let mut largest: f64 = 0.0;
         for seed in 0..4000 {
             let order = (seed % 4) as usize;
-            let accuracy = DualAccuracy { order, degree: order + 2, beta: 1.5, eta: 1.5 };
+            let accuracy = DualAccuracy { order, degree: order + 2, error: 1e-3 };
             let size = 0.02 + 0.25 * (seed % 13) as f64 / 13.0;
             let (error, bound, _) = errors(seed, size, 0.02 + 0.2 * (seed % 7) as f64 / 7.0, &accuracy);
             assert!(error <= bound, "seed {seed}: {error} above {bound}");
@@ -153,7 +159,7 @@ mod tests {
 
     #[test]
     fn rounding_stays_well_below_its_part_of_the_bound() {
-        let accuracy = DualAccuracy { order: 3, degree: 5, beta: 3.0, eta: 3.0 };
+        let accuracy = DualAccuracy { order: 3, degree: 5, error: 1e-6 };
         // Series so fast that rounding is all that is left.
         let ratios = (0..4000).map(|seed| {
             let (error, _, scale) = errors(seed, 1e-3, 1e-3, &accuracy);
@@ -167,7 +173,7 @@ mod tests {
     fn halving_lengths_divides_the_error_by_the_power_of_the_order() {
         // Error terms: (order + 2) powers of the cluster's size less one, degree + 1 powers of the block's.
         for (order, degree) in [(0, 3), (1, 4), (2, 5), (3, 5)] {
-            let accuracy = DualAccuracy { order, degree, beta: 1.5, eta: 1.5 };
+            let accuracy = DualAccuracy { order, degree, error: 1e-3 };
             let mean = |size: f64, reach: f64| {
                 (0..200).map(|seed| errors(seed, size, reach, &accuracy).0).sum::<f64>() / 200.0
             };
@@ -176,7 +182,7 @@ mod tests {
             assert!((0.6 * expected..1.7 * expected).contains(&ratio), "order {order}: {ratio}");
         }
         for degree in 1..5 {
-            let accuracy = DualAccuracy { order: 3, degree, beta: 1.5, eta: 1.5 };
+            let accuracy = DualAccuracy { order: 3, degree, error: 1e-3 };
             let mean = |reach: f64| (0..200).map(|s| errors(s, 0.01, reach, &accuracy).0).sum::<f64>();
             let (ratio, expected) = (mean(0.3) / mean(0.15), 2f64.powi(degree as i32 + 1));
             assert!((0.6 * expected..1.7 * expected).contains(&ratio), "degree {degree}: {ratio}");

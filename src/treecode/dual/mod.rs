@@ -13,15 +13,16 @@ mod local;
 mod moments;
 mod multipole;
 mod place;
+mod reach;
 mod sources;
 mod targets;
 mod tree;
 mod walk;
 
 pub use accuracy::{DualAccuracy, SourceKind};
-pub use sources::{QueryBlock, QueryLanes, Sources};
-pub use targets::{BlockView, LatticeTargets, PointTargets, Targets};
-pub use tree::{DualTree, Outcome};
+pub use sources::{NearLeaf, QueryBlock, QueryLanes, Sources};
+pub use targets::{BlockView, Cells, LatticeTargets, PointTargets, Targets};
+pub use tree::{Decided, DualTree, Outcome};
 
 use crate::data::BLOCK;
 use local::MAX_DEGREE;

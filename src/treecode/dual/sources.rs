@@ -1,6 +1,7 @@
-use super::GROUPS;
+use super::{GROUPS, SourceKind};
+use crate::data::BLOCK;
 use crate::math::Vec3;
-use std::sync::Arc;
+use std::panic::RefUnwindSafe;
 use wide::{f32x4, f64x4};
 
 /// Coordinates of four queries near the middle of their block.
@@ -21,65 +22,49 @@ pub struct QueryBlock {
     pub groups: usize,
 }
 
-/// A kind of source for a [`super::DualTree`]: what its far field is made of and how its near field is summed.
-pub trait Sources: Sync {
-    /// The near field of four queries while it is being summed.
-    type Sum: Copy + Send + Sync;
-    /// Whether all three corners of every source are the same.
-    const POINTS: bool;
-    /// A bound of the error that [`Sources::add`] makes for one source at one query.
-    const ROUNDING: f64;
-
+/// A kind of source for a [`super::DualTree`]: what its far field is made of and how its near field is summed. A panic leaves
+/// it as it was.
+pub trait Sources: Send + Sync + RefUnwindSafe {
     fn len(&self) -> usize;
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
+    /// Of points all three corners are the same.
+    fn kind(&self) -> SourceKind;
     /// The points whose hull is the source; finite.
     fn corners(&self, index: usize) -> [Vec3; 3];
     /// Area times normal.
     fn area_vector(&self, index: usize) -> Vec3;
 
-    /// The sum of no sources.
-    fn zero() -> Self::Sum;
-    /// Adds the fields of the `members` to the sums of those groups of queries whose bit is set in `wanted`.
-    fn add(&self, members: &[u32], queries: &QueryBlock, wanted: u32, sums: &mut [Self::Sum; GROUPS]);
-    /// The winding numbers of all sources added.
-    fn total(sum: &Self::Sum) -> [f64; 4];
+    /// A bound of the error that [`Sources::add`] makes for one source at one query.
+    fn rounding(&self) -> f64;
+    /// Adds the fields of the sources `near` a block to the `values` at its queries.
+    fn add(&self, near: &[NearLeaf], items: &[u32], queries: &QueryBlock, values: &mut [f64; BLOCK]);
 }
 
-impl<S: Sources + Send> Sources for Arc<S> {
-    type Sum = S::Sum;
-    const POINTS: bool = S::POINTS;
-    const ROUNDING: f64 = S::ROUNDING;
+/// Sources that act singly on some queries of a block.
+#[derive(Clone, Copy, Debug)]
+pub struct NearLeaf {
+    /// They are `items[first..first + count]`.
+    pub first: u32,
+    pub count: u32,
+    /// A bit for each group of queries that they act on.
+    pub wanted: u32,
+}
 
-    #[inline]
-    fn len(&self) -> usize {
-        S::len(self)
+impl NearLeaf {
+    pub fn members<'a>(&self, items: &'a [u32]) -> &'a [u32] {
+        &items[self.first as usize..][..self.count as usize]
     }
 
-    #[inline]
-    fn corners(&self, index: usize) -> [Vec3; 3] {
-        S::corners(self, index)
-    }
-
-    #[inline]
-    fn area_vector(&self, index: usize) -> Vec3 {
-        S::area_vector(self, index)
-    }
-
-    #[inline]
-    fn zero() -> S::Sum {
-        S::zero()
-    }
-
-    #[inline]
-    fn add(&self, members: &[u32], queries: &QueryBlock, wanted: u32, sums: &mut [S::Sum; GROUPS]) {
-        S::add(self, members, queries, wanted, sums);
-    }
-
-    #[inline]
-    fn total(sum: &S::Sum) -> [f64; 4] {
-        S::total(sum)
+    /// The groups of queries that the sources act on.
+    pub fn groups(&self) -> impl Iterator<Item = usize> + use<> {
+        let mut rest = self.wanted;
+        std::iter::from_fn(move || {
+            let lowest = (rest != 0).then(|| rest.trailing_zeros() as usize);
+            rest &= rest.wrapping_sub(1);
+            lowest
+        })
     }
 }
 
@@ -91,12 +76,12 @@ pub mod tests {
     pub struct Dipoles(pub Vec<(Vec3, Vec3)>);
 
     impl Sources for Dipoles {
-        type Sum = ();
-        const POINTS: bool = true;
-        const ROUNDING: f64 = 0.0;
-
         fn len(&self) -> usize {
             self.0.len()
+        }
+
+        fn kind(&self) -> SourceKind {
+            SourceKind::Points
         }
 
         fn corners(&self, index: usize) -> [Vec3; 3] {
@@ -107,13 +92,11 @@ pub mod tests {
             self.0[index].1
         }
 
-        fn zero() {}
-
-        fn add(&self, _: &[u32], _: &QueryBlock, _: u32, _: &mut [(); GROUPS]) {}
-
-        fn total((): &()) -> [f64; 4] {
-            [0.0; 4]
+        fn rounding(&self) -> f64 {
+            0.0
         }
+
+        fn add(&self, _: &[NearLeaf], _: &[u32], _: &QueryBlock, _: &mut [f64; BLOCK]) {}
     }
 
     /// Numbers in [−1, 1).

@@ -1,31 +1,32 @@
 //! Queries in a tree of blocks: of a lattice, or of points in the order of the Morton curve.
-use crate::bvh::{cut_at_highest_bit, morton_code};
-use crate::data::{BLOCK, Lattice};
+use crate::bvh::{cut_at_highest_bit, morton_code, sorted_codes};
+use crate::data::{BLOCK, Lattice, map_items};
 use crate::math::{Aabb, Vec3};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Most samples in a block whose walk is one task.
 const TASK: usize = 4096;
 
+/// A block of queries: of samples of a lattice, the first and the one after the last along each axis, in units of blocks; of
+/// sorted points, the range of their places in x.
+pub type Cells = [Range<usize>; 3];
+
 /// Queries that come as a tree of blocks, down to [`BLOCK`] queries that lie close together.
 pub trait Targets: Sync {
-    type Block: Clone + Send + Sync;
-
     /// The block of all queries; none if there are none.
-    fn whole(&self) -> Option<Self::Block>;
-    fn len(&self, block: &Self::Block) -> usize;
+    fn whole(&self) -> Option<Cells>;
+    fn len(&self, block: &Cells) -> usize;
     /// The smallest box around the queries of a block.
-    fn bounds(&self, block: &Self::Block) -> Aabb;
+    fn bounds(&self, block: &Cells) -> Aabb;
     /// Calls `child` for each part of a block of more than [`BLOCK`] queries.
-    fn split(&self, block: &Self::Block, child: impl FnMut(Self::Block));
+    fn split(&self, block: &Cells, child: &mut dyn FnMut(Cells));
     /// Calls `sample(index, position)` for each query of a block, neighbours after each other.
-    fn for_each(&self, block: &Self::Block, sample: impl FnMut(usize, Vec3));
+    fn for_each(&self, block: &Cells, sample: &mut dyn FnMut(usize, Vec3));
     /// Indices of queries that are not finite, and in no block.
     fn outcasts(&self) -> &[u32];
 
     /// Blocks that are walked each from the top: one task each.
-    fn tasks(&self) -> Vec<Self::Block> {
+    fn tasks(&self) -> Vec<Cells> {
         let mut tasks = Vec::new();
         let mut stack: Vec<_> = self.whole().into_iter().collect();
         while let Some(block) = stack.pop() {
@@ -33,7 +34,7 @@ pub trait Targets: Sync {
                 tasks.push(block);
             } else {
                 let first = stack.len();
-                self.split(&block, |child| stack.push(child));
+                self.split(&block, &mut |child| stack.push(child));
                 stack[first..].reverse();
             }
         }
@@ -42,18 +43,18 @@ pub trait Targets: Sync {
 }
 
 /// A block of queries, as callers see it.
-pub struct BlockView<'a, T: Targets> {
-    pub targets: &'a T,
-    pub block: &'a T::Block,
+pub struct BlockView<'a> {
+    pub targets: &'a dyn Targets,
+    pub block: &'a Cells,
 }
 
-impl<T: Targets> BlockView<'_, T> {
+impl BlockView<'_> {
     pub fn bounds(&self) -> Aabb {
         self.targets.bounds(self.block)
     }
 
     /// Calls `sample(index, position)` for each query of the block.
-    pub fn for_each(&self, sample: impl FnMut(usize, Vec3)) {
+    pub fn for_each(&self, sample: &mut dyn FnMut(usize, Vec3)) {
         self.targets.for_each(self.block, sample);
     }
 }
@@ -65,15 +66,18 @@ pub struct LatticeTargets {
     unit: [usize; 3],
     /// The samples of such a block in Morton order.
     order: [[u8; 3]; BLOCK],
+    planes: Range<usize>,
 }
-
-/// Samples of a lattice: the first and the one after the last along each axis, in units of blocks.
-pub type Cells = [Range<usize>; 3];
 
 impl LatticeTargets {
     pub fn new(lattice: &Lattice) -> LatticeTargets {
+        LatticeTargets::of_planes(lattice, 0..lattice.counts[2])
+    }
+
+    /// The samples of some planes: from a multiple of four to another, or to the last plane.
+    pub fn of_planes(lattice: &Lattice, planes: Range<usize>) -> LatticeTargets {
         let unit = if lattice.counts[2] == 1 { [8, 8, 1] } else { [4; 3] };
-        LatticeTargets { lattice: *lattice, unit, order: order_within(unit) }
+        LatticeTargets { lattice: *lattice, unit, order: order_within(unit), planes }
     }
 
     /// The samples of a block.
@@ -86,10 +90,11 @@ impl LatticeTargets {
 }
 
 impl Targets for LatticeTargets {
-    type Block = Cells;
-
     fn whole(&self) -> Option<Cells> {
-        let cells = [0, 1, 2].map(|axis| 0..self.lattice.counts[axis].div_ceil(self.unit[axis]));
+        let cells =
+            |axis: usize, start: usize, end: usize| start / self.unit[axis]..end.div_ceil(self.unit[axis]);
+        let [x, y, _] = self.lattice.counts;
+        let cells = [cells(0, 0, x), cells(1, 0, y), cells(2, self.planes.start, self.planes.end)];
         (!self.lattice.is_empty()).then_some(cells)
     }
 
@@ -105,7 +110,7 @@ impl Targets for LatticeTargets {
     }
 
     /// Halves the axes that are not much shorter than the longest.
-    fn split(&self, block: &Cells, mut child: impl FnMut(Cells)) {
+    fn split(&self, block: &Cells, child: &mut dyn FnMut(Cells)) {
         let size = [0, 1, 2]
             .map(|axis| (block[axis].len() * self.unit[axis]) as f64 * self.lattice.spacing[axis].abs());
         let divisible = |axis: usize| block[axis].len() > 1;
@@ -125,7 +130,7 @@ impl Targets for LatticeTargets {
         }
     }
 
-    fn for_each(&self, block: &Cells, mut sample: impl FnMut(usize, Vec3)) {
+    fn for_each(&self, block: &Cells, sample: &mut dyn FnMut(usize, Vec3)) {
         let mut give = |s: [usize; 3]| sample(self.lattice.index(s), self.lattice.point(s));
         let [xs, ys, zs] = self.samples(block);
         if block.iter().all(|r| r.len() == 1) {
@@ -169,40 +174,32 @@ pub struct PointTargets<'a> {
 
 impl<'a> PointTargets<'a> {
     pub fn new(points: &'a [Vec3]) -> PointTargets<'a> {
-        let finite = points.par_iter().filter(|p| p.is_finite());
-        let bounds = finite.map(|p| Aabb { min: *p, max: *p }).reduce(|| Aabb::EMPTY, Aabb::union);
-        let mut sorted: Vec<(u64, u32)> = (points.par_iter().enumerate())
-            .filter(|(_, p)| p.is_finite())
-            .map(|(i, p)| (morton_code(*p, &bounds), i as u32))
-            .collect();
-        sorted.par_sort_unstable();
-        PointTargets {
-            points,
-            order: sorted.par_iter().map(|s| s.1).collect(),
-            codes: sorted.par_iter().map(|s| s.0).collect(),
-            outcasts: (0..points.len() as u32).filter(|&i| !points[i as usize].is_finite()).collect(),
-        }
+        let (finite, outcasts): (Vec<u32>, Vec<u32>) =
+            (0..points.len() as u32).partition(|i| points[*i as usize].is_finite());
+        let bounds = Aabb::around(finite.iter().map(|&i| points[i as usize]));
+        let codes = map_items(finite.len(), |k| morton_code(points[finite[k] as usize], &bounds));
+        let (codes, places) = sorted_codes(codes);
+        let order = places.into_iter().map(|place| finite[place as usize]).collect();
+        PointTargets { points, order, codes, outcasts }
     }
 }
 
 impl Targets for PointTargets<'_> {
-    type Block = Range<usize>;
-
-    fn whole(&self) -> Option<Range<usize>> {
-        (!self.order.is_empty()).then_some(0..self.order.len())
+    fn whole(&self) -> Option<Cells> {
+        (!self.order.is_empty()).then_some([0..self.order.len(), 0..1, 0..1])
     }
 
-    fn len(&self, block: &Range<usize>) -> usize {
-        block.len()
+    fn len(&self, [places, ..]: &Cells) -> usize {
+        places.len()
     }
 
-    fn bounds(&self, block: &Range<usize>) -> Aabb {
-        Aabb::around(self.order[block.clone()].iter().map(|&i| self.points[i as usize]))
+    fn bounds(&self, [places, ..]: &Cells) -> Aabb {
+        Aabb::around(self.order[places.clone()].iter().map(|&i| self.points[i as usize]))
     }
 
     /// Cuts where the codes change, in up to eight, as long as they are too long for a block.
-    fn split(&self, block: &Range<usize>, mut child: impl FnMut(Range<usize>)) {
-        let mut parts = vec![block.clone()];
+    fn split(&self, [places, ..]: &Cells, child: &mut dyn FnMut(Cells)) {
+        let mut parts = vec![places.clone()];
         for _ in 0..3 {
             let cut = |part: Range<usize>| {
                 if part.len() <= BLOCK {
@@ -213,11 +210,11 @@ impl Targets for PointTargets<'_> {
             };
             parts = parts.into_iter().flat_map(cut).filter(|p| !p.is_empty()).collect();
         }
-        parts.into_iter().for_each(&mut child);
+        parts.into_iter().for_each(|part| child([part, 0..1, 0..1]));
     }
 
-    fn for_each(&self, block: &Range<usize>, mut sample: impl FnMut(usize, Vec3)) {
-        for &i in &self.order[block.clone()] {
+    fn for_each(&self, [places, ..]: &Cells, sample: &mut dyn FnMut(usize, Vec3)) {
+        for &i in &self.order[places.clone()] {
             sample(i as usize, self.points[i as usize]);
         }
     }
@@ -231,19 +228,19 @@ impl Targets for PointTargets<'_> {
 mod tests {
     use super::*;
 
-    fn check<T: Targets>(targets: &T, count: usize) {
+    fn check(targets: &dyn Targets, count: usize) {
         let mut seen = vec![0; count];
         let mut stack = targets.tasks();
         assert!(stack.iter().all(|t| targets.len(t) <= TASK));
         while let Some(block) = stack.pop() {
             let bounds = targets.bounds(&block);
             let mut inside = 0;
-            targets.for_each(&block, |_, p| inside += usize::from(bounds.contains(p)));
+            targets.for_each(&block, &mut |_, p| inside += usize::from(bounds.contains(p)));
             assert_eq!(inside, targets.len(&block));
             if inside <= BLOCK {
-                targets.for_each(&block, |i, _| seen[i] += 1);
+                targets.for_each(&block, &mut |i, _| seen[i] += 1);
             } else {
-                targets.split(&block, |child| stack.push(child));
+                targets.split(&block, &mut |child| stack.push(child));
             }
         }
         targets.outcasts().iter().for_each(|&i| seen[i as usize] += 1);

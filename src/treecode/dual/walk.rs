@@ -5,6 +5,10 @@ use super::far::FarFields;
 use super::local::Local;
 use super::multipole::Multipole;
 use super::place::{Block, Place};
+use super::reach::{BlockReach, CLASSES, LONGEST, Reach};
+use super::sources::NearLeaf;
+use super::targets::Cells;
+use super::tree::Decided;
 use super::{BlockView, DualAccuracy, GROUPS, Sources, Targets, WIDTH};
 use crate::data::BLOCK;
 use crate::math::Vec3;
@@ -15,13 +19,14 @@ use wide::f32x4;
 const NEAREST_MULTIPOLE: f32 = 1.0 / 16.0;
 
 /// What does not change during walks.
-pub struct Walk<'a, S: Sources, T: Targets, D> {
+pub struct Walk<'a> {
     pub clusters: &'a Clusters,
-    pub sources: &'a S,
-    pub targets: &'a T,
+    pub reaches: Vec<Reach>,
+    pub sources: &'a dyn Sources,
+    pub targets: &'a dyn Targets,
     pub accuracy: DualAccuracy,
     /// Whether a block needs no values, as the field there is known to be between two numbers.
-    pub decided: &'a D,
+    pub decided: Option<Decided<'a>>,
 }
 
 /// What is known of a block: its values follow each other in [`Findings::values`].
@@ -31,8 +36,8 @@ pub enum Finding {
 }
 
 /// What one task found.
-pub struct Findings<B> {
-    pub blocks: Vec<(B, Finding)>,
+pub struct Findings {
+    pub blocks: Vec<(Cells, Finding)>,
     pub values: Vec<f64>,
 }
 
@@ -43,9 +48,11 @@ pub struct Space {
     /// Clusters left to the blocks below, as a stack of lists.
     pending: Vec<u32>,
     work: Vec<u32>,
-    far: Vec<u32>,
+    /// Clusters far from the block, by their class.
+    far: [Vec<u32>; CLASSES],
     /// Clusters and the groups of queries that they still have to act on.
     near: Vec<(u32, u32)>,
+    leaves: Vec<NearLeaf>,
     points: Vec<Vec3>,
     block: Block,
 }
@@ -59,9 +66,9 @@ struct Inherited {
     error: f64,
 }
 
-impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_, S, T, D> {
+impl Walk<'_> {
     /// Walks everything below a block, from the top of the tree of sources.
-    pub fn run(&self, block: &T::Block, space: &mut Space) -> Findings<T::Block> {
+    pub fn run(&self, block: &Cells, space: &mut Space) -> Findings {
         let mut findings = Findings { blocks: Vec::new(), values: Vec::new() };
         space.pending.clear();
         space.pending.extend(self.clusters.roots.clone().map(|c| c as u32));
@@ -74,11 +81,11 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     /// Treats one block, whose parent's clusters are `space.pending[from..]`.
     fn descend(
         &self,
-        block: &T::Block,
+        block: &Cells,
         inherited: &Inherited,
         from: usize,
         space: &mut Space,
-        findings: &mut Findings<T::Block>,
+        findings: &mut Findings,
     ) {
         let bounds = self.targets.bounds(block);
         let place = Place::new(&bounds, &self.clusters.frame);
@@ -89,9 +96,9 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         if !(is_leaf && touches) {
             self.add_far(&mut own, space);
         }
-        if !touches {
+        if let Some(decided) = self.decided.filter(|_| !touches) {
             let (low, high) = self.range(&own, &space.pending[mark..]);
-            if (self.decided)(&BlockView { targets: self.targets, block }, low, high) {
+            if decided(&BlockView { targets: self.targets, block }, low, high) {
                 findings.blocks.push((block.clone(), Finding::Within { low, high }));
                 space.pending.truncate(mark);
                 return;
@@ -99,12 +106,12 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         }
         if is_leaf {
             space.points.clear();
-            self.targets.for_each(block, |_, p| space.points.push(p));
+            self.targets.for_each(block, &mut |_, p| space.points.push(p));
             space.block.set(&space.points, &bounds, &place, &self.clusters.frame);
             let bound = self.values(&mut own, mark, space, &mut findings.values);
             findings.blocks.push((block.clone(), Finding::Values { bound }));
         } else {
-            self.targets.split(block, |child| self.descend(&child, &own, mark, space, findings));
+            self.targets.split(block, &mut |child| self.descend(&child, &own, mark, space, findings));
         }
         space.pending.truncate(mark);
     }
@@ -113,11 +120,10 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     /// below (appended to `space.pending`), opening the large ones. Answers whether one of the latter touches the block.
     fn sift(&self, place: &Place, from: usize, space: &mut Space) -> bool {
         let Space { pending, work, far, .. } = space;
-        far.clear();
         work.clear();
         work.extend_from_slice(&pending[from..]);
         let (reach, small) = (f32x4::splat(place.radius), 0.5 * place.radius);
-        let (beta, eta) = (f32x4::splat(self.accuracy.beta as f32), f32x4::splat(self.accuracy.eta as f32));
+        let of_block = BlockReach::new(place.radius, &self.accuracy);
         let mut touches = false;
         let mut next = 0;
         while next < work.len() {
@@ -127,14 +133,14 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
             next += count;
             let (offset, radius) = place.relative_to(four.map(|c| &self.clusters.balls[c as usize]));
             let distance = (offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]).sqrt();
-            let is_far = (distance.simd_gt(beta * radius + reach) & (distance - radius).simd_gt(eta * reach))
-                .to_bitmask();
             let is_apart = (distance * f32x4::splat(1.0 - 1e-6)).simd_gt(radius + reach).to_bitmask();
+            let (distance, radius) = (distance.to_array(), radius.to_array());
             for (k, cluster) in four.into_iter().enumerate().take(count) {
                 let link = &self.clusters.links[cluster as usize];
-                if is_far >> k & 1 == 1 {
-                    far.push(cluster);
-                } else if link.is_leaf() || self.clusters.balls[cluster as usize][3] < small {
+                let class = of_block.class(&self.reaches[cluster as usize], distance[k], radius[k]);
+                if let Some(class) = class {
+                    far[class].push(cluster);
+                } else if link.is_leaf() || radius[k] < small {
                     touches |= is_apart >> k & 1 == 0;
                     pending.push(cluster);
                 } else {
@@ -148,7 +154,7 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     fn add_far(&self, own: &mut Inherited, space: &mut Space) {
         let Space { far_fields, far, .. } = space;
         own.error += far_fields.add(self.clusters, far, &own.place, &self.accuracy, &mut own.local);
-        far.clear();
+        far.iter_mut().for_each(Vec::clear);
     }
 
     /// Bounds of the field over a block that no pending cluster touches.
@@ -169,21 +175,16 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
 
     /// Appends the values at the queries of a leaf; answers a bound of their errors.
     fn values(&self, own: &mut Inherited, mark: usize, space: &mut Space, values: &mut Vec<f64>) -> f64 {
-        let mut sums = [S::zero(); GROUPS];
         let mut far = [f32x4::ZERO; GROUPS];
-        let error = self.near(&own.place, mark, space, &mut far, &mut sums);
+        let error = self.near(&own.place, mark, space, &mut far);
         own.error += ROUND_UP * error + ROUNDING_OF_SUMS;
         self.add_far(own, space);
         let (block, count) = (&space.block, space.points.len());
         let groups = block.queries.groups;
         own.local.values(&block.scaled[..groups], self.accuracy.degree, &mut far[..groups]);
-        for i in 0..count {
-            if i % WIDTH == 0 {
-                let near = S::total(&sums[i / WIDTH]);
-                let far = far[i / WIDTH].to_array();
-                values.extend((i..count.min(i + WIDTH)).map(|j| near[j - i] + f64::from(far[j - i])));
-            }
-        }
+        let mut all: [f64; BLOCK] = std::array::from_fn(|i| f64::from(far[i / WIDTH].to_array()[i % WIDTH]));
+        self.sources.add(&space.leaves, &self.clusters.items, &block.queries, &mut all);
+        values.extend(&all[..count]);
         if block.beyond != 0 {
             let first = values.len() - count;
             (0..count).filter(|i| block.beyond >> i & 1 == 1).for_each(|i| values[first + i] = 0.0);
@@ -192,31 +193,29 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     }
 
     /// Adds the fields of the pending clusters: of those that turn out far from the whole block to `space.far` for later,
-    /// of those far from some groups of queries by their multipole series to `far`, of the rest singly to `sums`. Answers
-    /// a bound of the error made.
-    fn near(
-        &self,
-        place: &Place,
-        mark: usize,
-        space: &mut Space,
-        far: &mut [f32x4; GROUPS],
-        sums: &mut [S::Sum; GROUPS],
-    ) -> f64 {
-        let Space { near, far: far_from_all, pending, block, .. } = space;
+    /// of those far from some groups of queries by their multipole series to `far`; lists the rest in `space.leaves`, to
+    /// be added singly. Answers a bound of the error made.
+    fn near(&self, place: &Place, mark: usize, space: &mut Space, far: &mut [f32x4; GROUPS]) -> f64 {
+        let Space { near, far: far_from_all, leaves, pending, block, .. } = space;
         let all = block.all();
+        leaves.clear();
         near.clear();
         near.extend(pending[mark..].iter().rev().map(|&c| (c, all)));
+        let of_block = BlockReach::new(place.radius, &self.accuracy);
         let mut error = 0.0;
         while let Some((cluster, wanted)) = near.pop() {
             let (ball, link) =
                 (&self.clusters.balls[cluster as usize], &self.clusters.links[cluster as usize]);
             let offset = place.offset_of(ball);
-            if wanted == all && self.is_far(offset.length() as f32, ball[3], place.radius) {
-                far_from_all.push(cluster);
+            let (reach, distance) = (&self.reaches[cluster as usize], offset.length() as f32);
+            if wanted == all
+                && let Some(class) = of_block.class(reach, distance, ball[3])
+            {
+                far_from_all[class].push(cluster);
                 continue;
             }
             let center = offset.to_array().map(|x| x as f32);
-            let is_far = self.far_groups(block, center, ball[3], wanted);
+            let is_far = self.far_groups(block, center, cluster, wanted);
             if is_far != 0 {
                 self.add_multipole(block, cluster, center, is_far, far);
                 error += self.error_of_multipole(cluster, offset.length() as f32, place.radius);
@@ -226,8 +225,9 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
                 continue;
             }
             if link.is_leaf() {
-                self.sources.add(&self.clusters.items[link.range()], &block.queries, rest, sums);
-                error += S::ROUNDING * link.range().len() as f64;
+                let range = link.range();
+                leaves.push(NearLeaf { first: range.start as u32, count: range.len() as u32, wanted: rest });
+                error += self.sources.rounding() * range.len() as f64;
             } else {
                 near.extend(link.range().rev().map(|c| (c as u32, rest)));
             }
@@ -235,20 +235,15 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
         error
     }
 
-    fn is_far(&self, distance: f32, radius: f32, reach: f32) -> bool {
-        let DualAccuracy { beta, eta, .. } = self.accuracy;
-        distance > beta as f32 * radius + reach && distance - radius > eta as f32 * reach
-    }
-
-    /// From where on a cluster acts by its multipole series on queries of a block: β radii.
-    fn least_distance(&self, radius: f32, reach: f32) -> f32 {
-        (self.accuracy.beta as f32 * radius).max(NEAREST_MULTIPOLE * reach)
+    /// From where on a cluster acts by its multipole series on queries of a block.
+    fn least_distance(&self, cluster: u32, radius: f32) -> f32 {
+        self.reaches[cluster as usize].multipole[LONGEST].max(NEAREST_MULTIPOLE * radius)
     }
 
     /// Which of the `wanted` groups of queries lie farther than that from a cluster.
     #[inline(always)]
-    fn far_groups(&self, block: &Block, center: [f32; 3], radius: f32, wanted: u32) -> u32 {
-        let distance = self.least_distance(radius, block.queries.reach);
+    fn far_groups(&self, block: &Block, center: [f32; 3], cluster: u32, wanted: u32) -> u32 {
+        let distance = self.least_distance(cluster, block.queries.reach);
         let (center, square) = (center.map(f32x4::splat), f32x4::splat(distance * distance));
         bits(wanted)
             .filter(|&g| Multipole::is_farther(&center, &block.queries.offsets[g], square))
@@ -278,7 +273,7 @@ impl<S: Sources, T: Targets, D: Fn(&BlockView<'_, T>, f64, f64) -> bool> Walk<'_
     fn error_of_multipole(&self, cluster: u32, distance: f32, reach: f32) -> f64 {
         let (series, radius) =
             (&self.clusters.series[cluster as usize], self.clusters.balls[cluster as usize][3]);
-        let closest = (distance - reach).max(self.least_distance(radius, reach)) * (1.0 - 1e-5);
+        let closest = (distance - reach).max(self.least_distance(cluster, reach)) * (1.0 - 1e-5);
         let order = self.accuracy.order;
         let [area, spread, radius, closest] =
             [series.area, bounds::spread_of_order(series.spread, order), radius, closest].map(f32x4::splat);

@@ -1,53 +1,49 @@
 //! Dipoles near a block of queries, four queries at a time.
-use crate::data::OrientedCloud;
+use crate::bvh::WIDTH;
+use crate::data::{BLOCK, OrientedCloud};
 use crate::math::Vec3;
-use crate::treecode::{GROUPS, Lanes, QueryBlock, Sources};
+use crate::treecode::{GROUPS, Lanes, NearLeaf, QueryBlock, SourceKind, Sources};
 use std::f64::consts::PI;
 use wide::{f32x4, f64x4};
 
 impl Sources for OrientedCloud {
-    type Sum = f64x4;
-    const POINTS: bool = true;
-    const ROUNDING: f64 = DIPOLE_ROUNDING;
-
-    #[inline]
     fn len(&self) -> usize {
         self.points().len()
     }
 
-    #[inline]
+    fn kind(&self) -> SourceKind {
+        SourceKind::Points
+    }
+
     fn corners(&self, index: usize) -> [Vec3; 3] {
         [self.points()[index]; 3]
     }
 
-    #[inline]
     fn area_vector(&self, index: usize) -> Vec3 {
         self.areas()[index] * self.normals()[index]
     }
 
-    #[inline]
-    fn zero() -> f64x4 {
-        f64x4::ZERO
+    fn rounding(&self) -> f64 {
+        DIPOLE_ROUNDING
     }
 
-    fn add(&self, members: &[u32], queries: &QueryBlock, wanted: u32, sums: &mut [f64x4; GROUPS]) {
-        for &i in members {
-            let (point, vector) = (self.points()[i as usize], Sources::area_vector(self, i as usize));
-            let dipole = Dipole32::new(point, vector, queries);
-            let mut rest = wanted;
-            while rest != 0 {
-                let group = rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                sums[group] += match dipole.field(&queries.offsets[group]) {
-                    Some(field) => widened(field),
-                    None => precise_dipole(point, vector, &queries.positions[group]),
-                };
+    fn add(&self, near: &[NearLeaf], items: &[u32], queries: &QueryBlock, values: &mut [f64; BLOCK]) {
+        let mut sums = [f64x4::ZERO; GROUPS];
+        for leaf in near {
+            for &i in leaf.members(items) {
+                let (point, vector) = (self.points()[i as usize], Sources::area_vector(self, i as usize));
+                let dipole = Dipole32::new(point, vector, queries);
+                for group in leaf.groups() {
+                    sums[group] += match dipole.field(&queries.offsets[group]) {
+                        Some(field) => widened(field),
+                        None => precise_dipole(point, vector, &queries.positions[group]),
+                    };
+                }
             }
         }
-    }
-
-    fn total(sum: &f64x4) -> [f64; 4] {
-        sum.to_array().map(|s| s / (4.0 * PI))
+        for (values, sum) in values.chunks_mut(WIDTH).zip(sums) {
+            values.iter_mut().zip(sum.to_array()).for_each(|(value, s)| *value += s / (4.0 * PI));
+        }
     }
 }
 

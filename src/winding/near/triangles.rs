@@ -1,12 +1,11 @@
 //! Solid angles of triangles near a block of queries, four queries at a time.
 use super::angles::Angles;
-use crate::data::TriangleSoup;
-use crate::math::{Vec3, area_vector};
-use crate::treecode::{GROUPS, Lanes, QueryBlock, Sources};
+use crate::bvh::WIDTH;
+use crate::data::BLOCK;
+use crate::math::{Vec3, area_vector, perturbed_side_of_plane};
+use crate::treecode::{GROUPS, Kernel, Lanes, NearLeaf, QueryBlock, SourceKind, Sources};
+use crate::winding::triangles::Triangles;
 use wide::{f32x4, f64x4};
-
-/// Queries in a group.
-const WIDTH: usize = 4;
 
 /// Who decides on which side of a triangle a query lies where rounding leaves it open.
 pub trait Sides {
@@ -33,21 +32,18 @@ impl Sides for AsComputed {
 /// orient3d), with what the bound's own computation may lose.
 const NUMERATOR_ERROR: f64 = 8.0 * (f64::EPSILON / 2.0);
 
-/// Adds the solid angles of a triangle to the sums of those groups of queries whose bit is set in `wanted`: in 32-bit floats
+/// Adds the solid angles of a triangle of `leaf` to the sums of the groups of queries that this acts on: in 32-bit floats
 /// where that is safe, and otherwise, or when `sides` decides, in 64-bit ones.
 #[inline(always)]
 pub fn add_triangle<D: Sides>(
     corners: [Vec3; 3],
     sides: &D,
     queries: &QueryBlock,
-    wanted: u32,
+    leaf: &NearLeaf,
     sums: &mut [Angles; GROUPS],
 ) {
     let triangle = Triangle32::new(&corners, queries);
-    let mut rest = wanted;
-    while rest != 0 {
-        let group = rest.trailing_zeros() as usize;
-        rest &= rest - 1;
+    for group in leaf.groups() {
         let quick = if D::DECIDES { None } else { triangle.half_angles(&queries.offsets[group]) };
         let (numerators, denominators) =
             quick.unwrap_or_else(|| precise_half_angles(&corners, sides, &queries.positions[group]));
@@ -189,40 +185,61 @@ fn dot(a: &Lanes, b: &Lanes) -> f64x4 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-impl Sources for TriangleSoup {
-    type Sum = Angles;
-    const POINTS: bool = false;
-    const ROUNDING: f64 = TRIANGLE_ROUNDING;
+/// Caps are decided as their crossings are, so that the two jump at the same place.
+struct AsCrossings;
 
-    #[inline]
-    fn len(&self) -> usize {
-        self.triangles().len()
-    }
+impl Sides for AsCrossings {
+    const DECIDES: bool = true;
 
-    #[inline]
-    fn corners(&self, index: usize) -> [Vec3; 3] {
-        TriangleSoup::corners(self, index)
-    }
-
-    #[inline]
-    fn area_vector(&self, index: usize) -> Vec3 {
-        area_vector(TriangleSoup::corners(self, index))
-    }
-
-    #[inline]
-    fn zero() -> Angles {
-        Angles::ZERO
-    }
-
-    fn add(&self, members: &[u32], queries: &QueryBlock, wanted: u32, sums: &mut [Angles; GROUPS]) {
-        for &i in members {
-            let corners = TriangleSoup::corners(self, i as usize);
-            add_triangle(corners, &AsComputed, queries, wanted, sums);
+    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
+        let mut parts = numerators.to_array();
+        for k in (0..WIDTH).filter(|k| open >> k & 1 == 1) {
+            let q = Vec3::from_array([0, 1, 2].map(|axis| queries[axis].to_array()[k]));
+            // Seen from the side to which the normal points the solid angle is negative.
+            let side = -f64::from(perturbed_side_of_plane(q, *corners));
+            parts[k] = side * parts[k].abs().max(f64::MIN_POSITIVE);
         }
+        f64x4::from(parts)
+    }
+}
+
+impl Sources for Triangles {
+    fn len(&self) -> usize {
+        Kernel::len(self)
     }
 
-    fn total(sum: &Angles) -> [f64; 4] {
-        sum.turns()
+    fn kind(&self) -> SourceKind {
+        SourceKind::Triangles
+    }
+
+    fn corners(&self, index: usize) -> [Vec3; 3] {
+        Kernel::corners(self, index)
+    }
+
+    fn area_vector(&self, index: usize) -> Vec3 {
+        area_vector(Kernel::corners(self, index))
+    }
+
+    fn rounding(&self) -> f64 {
+        TRIANGLE_ROUNDING
+    }
+
+    fn add(&self, near: &[NearLeaf], items: &[u32], queries: &QueryBlock, values: &mut [f64; BLOCK]) {
+        let mut sums = [Angles::ZERO; GROUPS];
+        let caps = self.caps();
+        for leaf in near {
+            for &i in leaf.members(items) {
+                let corners = Kernel::corners(self, i as usize);
+                if (i as usize) < caps {
+                    add_triangle(corners, &AsCrossings, queries, leaf, &mut sums);
+                } else {
+                    add_triangle(corners, &AsComputed, queries, leaf, &mut sums);
+                }
+            }
+        }
+        for (values, sum) in values.chunks_mut(WIDTH).zip(sums) {
+            values.iter_mut().zip(sum.turns()).for_each(|(value, turns)| *value += turns);
+        }
     }
 }
 
@@ -249,7 +266,8 @@ mod tests {
 
     fn winding_numbers(sides: &impl Sides, points: [Vec3; 4]) -> [f64; 4] {
         let mut sums = [Angles::ZERO; GROUPS];
-        add_triangle(TRIANGLE, sides, &block(points), 1, &mut sums);
+        let leaf = NearLeaf { first: 0, count: 1, wanted: 1 };
+        add_triangle(TRIANGLE, sides, &block(points), &leaf, &mut sums);
         assert_eq!(sums[1].turns(), [0.0; 4]);
         sums[0].turns()
     }

@@ -1,0 +1,92 @@
+//! The field of a cloud: the dual tree for many points, the tree of Barill et al. 2018 for few.
+use super::dipoles::direct_sum;
+use super::error_model::{CLOUD_ERROR, COARSE_BETA, FINE_BETA};
+use super::many::{InsideTest, Many};
+use crate::data::{BLOCK, Cancelled, Monitor, OrientedCloud};
+use crate::math::Vec3;
+use crate::treecode::{Order, Scratch, Targets, Tree, TreeConfig};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Arc, OnceLock};
+
+pub struct CloudField {
+    cloud: Arc<OrientedCloud>,
+    config: TreeConfig,
+    pub many: Many,
+    few: OnceLock<Tree<OrientedCloud>>,
+    refined: AtomicUsize,
+}
+
+impl CloudField {
+    pub fn new(cloud: Arc<OrientedCloud>, config: TreeConfig) -> CloudField {
+        let many = Many::new(cloud.clone());
+        CloudField { cloud, config, many, few: OnceLock::new(), refined: AtomicUsize::new(0) }
+    }
+
+    /// The tree for few points. Built outside of the cell that holds it: a thread that waited for another to build could be
+    /// the one whose help that other waits for.
+    pub fn few(&self) -> &Tree<OrientedCloud> {
+        if let Some(tree) = self.few.get() {
+            return tree;
+        }
+        let _ = self.few.set(Tree::build(&*self.cloud, &self.config));
+        self.few.get().expect("it was set just now, here or by another thread")
+    }
+
+    pub fn bytes(&self) -> usize {
+        self.many.bytes() + self.few.get().map_or(0, Tree::bytes)
+    }
+
+    /// Points whose inside test needed the direct sum, in all tests of many points so far.
+    pub fn refined(&self) -> usize {
+        self.refined.load(Relaxed)
+    }
+
+    /// Hands to `set` whether w ≥ `threshold` at each target, with its index.
+    ///
+    /// # Errors
+    /// If and only if the monitor cancels.
+    pub fn classify(
+        &self,
+        targets: &dyn Targets,
+        point: &dyn Fn(usize) -> Vec3,
+        threshold: f64,
+        monitor: &dyn Monitor,
+        set: &mut dyn FnMut(usize, bool),
+    ) -> Result<(), Cancelled> {
+        let exactly = |_: usize, q: Vec3| direct_sum(&self.cloud, q) >= threshold;
+        let test = InsideTest { threshold, offset: &|_| 0.0, point, exactly: &exactly };
+        self.refined.fetch_add(self.many.classify(targets, &test, monitor, set)?, Relaxed);
+        Ok(())
+    }
+
+    pub fn exceeds(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> bool {
+        let w = self.few().at(q, Order::Two, COARSE_BETA, scratch);
+        self.decide(q, w, threshold, scratch)
+    }
+
+    /// [`CloudField::exceeds`] at up to [`BLOCK`] points that lie close together.
+    pub fn exceeds_block(
+        &self,
+        points: &[Vec3],
+        threshold: f64,
+        results: &mut [bool],
+        scratch: &mut Scratch,
+    ) {
+        let mut values = [0.0; BLOCK];
+        self.few().at_block(points, &mut values[..points.len()], Order::Two, COARSE_BETA, scratch);
+        for ((q, w), result) in points.iter().zip(values).zip(results) {
+            *result = self.decide(*q, w, threshold, scratch);
+        }
+    }
+
+    /// Decides by the coarse value `w` at `q`, or by finer ones while these are within their error of the threshold.
+    fn decide(&self, q: Vec3, w: f64, threshold: f64, scratch: &mut Scratch) -> bool {
+        let certain = |w: f64, beta: f64| (w - threshold).abs() > CLOUD_ERROR.error(beta) || w.is_nan();
+        if certain(w, COARSE_BETA) {
+            return w >= threshold;
+        }
+        let tree = self.few();
+        let w = tree.at(q, Order::Two, FINE_BETA, scratch);
+        if certain(w, FINE_BETA) { w >= threshold } else { tree.direct(q) >= threshold }
+    }
+}
