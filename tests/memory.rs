@@ -106,7 +106,6 @@ fn a_field_takes_at_most_120_bytes_per_triangle_beside_the_soup() {
 }
 
 #[test]
-#[ignore = "the tree of loose triangles copies them"]
 fn a_field_of_loose_triangles_takes_at_most_120_bytes_per_triangle() {
     let _alone = alone();
     let [held, _] = bytes_per_triangle("loose", loose());

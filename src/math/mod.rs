@@ -3,8 +3,8 @@ mod aabb;
 mod chebyshev;
 mod plane;
 mod predicates;
+mod quad;
 mod triangle;
-mod widest;
 
 pub use aabb::Aabb;
 pub use chebyshev::{Nodes, bernstein, lebesgue};
@@ -14,5 +14,5 @@ pub use predicates::{
     Sign, covers, meet, normal_signs, orient_yz, perturbed_side_of_plane, side_of_edge, side_of_plane,
     tie_break, touches,
 };
+pub use quad::{Quad, QuadWork, on_quads};
 pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};
-pub use widest::widest;

@@ -1,6 +1,7 @@
 use crate::bvh::WIDTH;
+use crate::math::Quad;
 use std::f64::consts::TAU;
-use wide::{f64x4, i64x4};
+use wide::f64x4;
 
 /// A sum of half solid angles, kept as the product of complex numbers with those arguments, and the number of times
 /// the product went around: one arctangent for a whole query instead of one for each triangle.
@@ -29,7 +30,7 @@ impl AngleProduct {
         let up = !flat & was_upper & imaginary.simd_ge(zero) & !is_upper;
         let down = !was_upper & imaginary.simd_lt(zero) & is_upper;
         self.wraps += (up & f64x4::ONE) - (down & f64x4::ONE);
-        let scale = reciprocal_power_of_two(new_real.abs() + new_imaginary.abs());
+        let scale = (new_real.abs() + new_imaginary.abs()).reciprocal_power_of_two();
         self.real = new_real * scale;
         self.imaginary = new_imaginary * scale;
     }
@@ -80,13 +81,4 @@ impl AngleProduct1 {
         // −0 would turn an angle of π into −π.
         libm::atan2(self.imaginary + 0.0, self.real) / TAU + self.wraps
     }
-}
-
-/// 2⁻ᵉ for a positive normal number with exponent e: it keeps products from overflowing and rounds nothing.
-#[inline(always)]
-fn reciprocal_power_of_two(x: f64x4) -> f64x4 {
-    const EXPONENT: i64 = 0x7ff0_0000_0000_0000;
-    const TWICE_BIAS: i64 = 0x7fe0_0000_0000_0000;
-    let bits: i64x4 = wide::bytemuck::cast(x);
-    wide::bytemuck::cast(i64x4::splat(TWICE_BIAS) - (bits & i64x4::splat(EXPONENT)))
 }

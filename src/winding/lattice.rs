@@ -22,8 +22,10 @@ const BYTES_AT_ONCE: usize = 34_000_000;
 /// Most samples along each axis of a block of fractions.
 const TOP: usize = 32;
 const BLOCKS_PER_REPORT: usize = 32;
-/// How far fractions may be off where they are not needed exactly: little enough that few samples need more.
-const CLASSIFICATION_ERROR: f64 = 0.1;
+/// How far fractions may be off where they are not needed exactly, first; and then, for blocks of which more than a few
+/// samples are left open. What few finer looks leave open is summed.
+const CLASSIFICATION_ERRORS: [f64; 3] = [0.25, 2e-3, 1e-5];
+const FEW_SUMS: usize = 64;
 /// Crossings beyond this are not told apart.
 const MOST_CROSSINGS: f64 = 32_000.0;
 
@@ -62,7 +64,8 @@ impl SoupField {
                 values[first..first + row.len()].iter_mut().zip(row).for_each(|(value, add)| *value += add);
             };
             let need = Need::Value { tolerance };
-            self.for_each_boundary_row(lattice, planes, need, |_, row| row, add, (stage, monitor))?;
+            let of_block = |ends| self.boundary.block(&self.closure.caps, lattice, ends, need);
+            self.for_each_boundary_row(lattice, planes, of_block, add, (stage, monitor))?;
         }
         let principal =
             map_items(on_surface.len(), |k| self.principal_at(lattice.point(lattice.sample(on_surface[k]))));
@@ -76,14 +79,13 @@ impl SoupField {
         counted.on_surface.iter().map(|place| first + *place as usize).collect()
     }
 
-    /// The fractions of the caps at the samples of some planes: those of each block as `of_block(its first
-    /// sample, values)` changes them, in parallel; then row by row to `store(place of the row's first sample, values)`.
+    /// Cuts some planes into blocks, from their first samples to before their last; hands what `of_block` gives for the
+    /// samples of each, in parallel, row by row to `store(place of the row's first sample, values)`.
     fn for_each_boundary_row<T: Send>(
         &self,
         lattice: &Lattice,
         planes: Range<usize>,
-        need: Need,
-        of_block: impl Fn([[usize; 3]; 2], Vec<f64>) -> Vec<T> + Sync,
+        of_block: impl Fn([[usize; 3]; 2]) -> Vec<T> + Sync,
         mut store: impl FnMut(usize, &[T]),
         (stage, monitor): (&str, &dyn Monitor),
     ) -> Result<(), Cancelled> {
@@ -102,8 +104,7 @@ impl SoupField {
                     corner[2] += planes.start;
                     corner
                 });
-                let values = self.boundary.block(&self.closure.caps, lattice, [low, high], need);
-                ([low, high], of_block([low, high], values))
+                ([low, high], of_block([low, high]))
             });
             for ([low, high], values) in results {
                 let rows = (low[2]..high[2]).flat_map(|k| (low[1]..high[1]).map(move |j| [low[0], j, k]));
@@ -165,48 +166,67 @@ impl SoupField {
         report: (&str, &dyn Monitor),
     ) -> Result<Vec<i16>, FieldError> {
         let plane = lattice.counts[0] * lattice.counts[1];
-        let least =
-            |fraction: f64| (threshold - fraction).ceil().clamp(-MOST_CROSSINGS, MOST_CROSSINGS) as i16;
         let mut result = zeroed::<i16>(plane * planes.len())?;
         if self.is_closed() {
-            result.fill(least(0.0));
+            result.fill(least_integer(threshold, 0.0));
             return Ok(result);
         }
-        let of_block = |[low, high]: [[usize; 3]; 2], fractions: Vec<f64>| {
-            let rows = (low[2]..high[2]).flat_map(|k| (low[1]..high[1]).map(move |j| [low[0], j, k]));
-            let mut result = Vec::with_capacity(fractions.len());
-            let mut open = Vec::new();
-            for (at, row) in rows.zip(fractions.chunks(high[0] - low[0])) {
-                let (low, high) =
-                    row.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
-                let decided = least(low - CLASSIFICATION_ERROR);
-                if decided == least(high + CLASSIFICATION_ERROR) {
-                    result.resize(result.len() + row.len(), decided);
-                    continue;
-                }
-                for (i, fraction) in row.iter().enumerate() {
-                    let decided = least(fraction - CLASSIFICATION_ERROR);
-                    if decided != least(fraction + CLASSIFICATION_ERROR) {
-                        open.push((result.len(), lattice.point([at[0] + i, at[1], at[2]])));
-                    }
-                    result.push(decided);
-                }
-            }
-            for four in open.chunks(LANES) {
-                let queries = std::array::from_fn(|k| four[k.min(four.len() - 1)].1);
-                for ((place, q), fraction) in four.iter().zip(self.curtain.fractions(&queries)) {
-                    result[*place] = least(fraction - f64::from(self.cap_crossings(*q)) + TIE);
-                }
-            }
-            self.count_refined(open.len());
-            result
-        };
+        let of_block = |ends| self.least_of_block(lattice, ends, threshold);
         let first = planes.start * plane;
         let store = |place: usize, row: &[i16]| result[place - first..][..row.len()].copy_from_slice(row);
-        let need = Need::Side { threshold, error: CLASSIFICATION_ERROR };
-        self.for_each_boundary_row(lattice, planes, need, of_block, store, report)?;
+        self.for_each_boundary_row(lattice, planes, of_block, store, report)?;
         Ok(result)
     }
+
+    fn least_of_block(&self, lattice: &Lattice, [low, high]: [[usize; 3]; 2], threshold: f64) -> Vec<i16> {
+        let [nx, ny, nz]: [usize; 3] = std::array::from_fn(|axis| high[axis] - low[axis]);
+        let mut result = vec![0; nx * ny * nz];
+        let mut open: Vec<usize> = (0..result.len()).collect();
+        for error in CLASSIFICATION_ERRORS {
+            let need = Need::Side { threshold, error };
+            let fractions = self.boundary.block(&self.closure.caps, lattice, [low, high], need);
+            if open.len() == result.len() {
+                let (least, highest) = extremes(&fractions);
+                let decided = least_integer(threshold, least - error);
+                if decided == least_integer(threshold, highest + error) {
+                    return vec![decided; result.len()];
+                }
+            }
+            open.retain(|place| {
+                let fraction = fractions[*place];
+                result[*place] = least_integer(threshold, fraction - error);
+                result[*place] != least_integer(threshold, fraction + error)
+            });
+            if open.len() <= FEW_SUMS {
+                break;
+            }
+        }
+        for four in open.chunks(LANES) {
+            let queries: [Vec3; LANES] = std::array::from_fn(|k| {
+                let place = four[k.min(four.len() - 1)];
+                lattice.point([low[0] + place % nx, low[1] + place / nx % ny, low[2] + place / (nx * ny)])
+            });
+            for ((place, q), fraction) in four.iter().zip(queries).zip(self.curtain.fractions(&queries)) {
+                let fraction = fraction - f64::from(self.cap_crossings(q));
+                result[*place] = least_integer(threshold, fraction + TIE);
+            }
+        }
+        self.count_refined(open.len());
+        result
+    }
+}
+
+/// The least integer that reaches a threshold together with a fraction.
+fn least_integer(threshold: f64, fraction: f64) -> i16 {
+    // Rounded up; exact, and cheaper than a call where a processor has no instruction for it.
+    let least = (threshold - fraction).clamp(-MOST_CROSSINGS, MOST_CROSSINGS);
+    let towards_zero = least as i16;
+    towards_zero + i16::from(f64::from(towards_zero) < least)
+}
+
+fn extremes(values: &[f64]) -> (f64, f64) {
+    let both = |(least, most): (f64, f64), v: &f64| (least.min(*v), most.max(*v));
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), both)
 }
 
 /// Counts the crossings of every slab, in parallel, and hands them with the slab's part of `output`, `per_plane` items for

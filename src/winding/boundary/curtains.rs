@@ -8,13 +8,16 @@
 //! of queries parallel to u, ζ̄_a ζ_b is constant: a square root and a complex product are left for each edge and query.
 //!
 //! Arguments are summed as one product, with the number of times that it went around.
-use crate::math::{Aabb, Vec3, widest};
+use super::loops::Loop;
+use crate::math::{Aabb, Quad, QuadWork, Vec3, on_quads};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use wide::f64x4;
 
+/// Queries taken together.
+const LANES: usize = 4;
 /// Edges between two corrections of the product's exponent.
-const EDGES_PER_SCALE: usize = 4;
+const EDGES_PER_SCALE: usize = 8;
 /// Boxes count as apart only if the gap is this share of the loop's size: nearer, chords between two loops of a cycle would
 /// have to cancel to the last bit.
 const GAP: f64 = 1.0 / 64.0;
@@ -63,12 +66,15 @@ pub struct Products {
     row: Row,
 }
 
-/// What is constant along a row, for each vertex of a loop and the edge that leads to it.
+/// What is constant along a row, for each vertex of all loops, one after the other, the last one of each once more before
+/// its first; and for the edge that leads to it.
 #[derive(Default)]
 struct Row {
+    points: Vec<Vec3>,
     queries: Vec<f64>,
+    /// Where each loop ends.
+    ends: Vec<usize>,
     along: Vec<f64>,
-    /// Of the vertices, the last one once more before the first.
     beside: [Vec<f64>; 2],
     squared: Vec<f64>,
     real: Vec<f64>,
@@ -83,48 +89,23 @@ impl Products {
         Products { unit, counts, real: ones, imaginary: zeros.clone(), wraps: zeros, row: Row::default() }
     }
 
-    /// Multiplies by the factors of a loop that lies in a direction, the sign of an axis, from a region of the grid.
-    pub fn multiply(&mut self, grid: &Grid, region: &Region, points: &[Vec3], direction: (usize, f64)) {
-        widest(
-            #[inline(always)]
-            || self.multiply_here(grid, region, points, direction),
-        );
-    }
-
-    #[inline(always)]
-    fn multiply_here(&mut self, grid: &Grid, region: &Region, points: &[Vec3], (u, sign): (usize, f64)) {
-        let [v, w] = [(u + 1) % 3, (u + 2) % 3];
-        let strides = [1, self.counts[0], self.counts[0] * self.counts[1]];
-        let (row, unit) = (&mut self.row, self.unit);
-        row.along.clear();
-        row.along.extend(points.iter().map(|p| sign * unit * p[u]));
-        row.queries.clear();
-        row.queries.extend(grid[u][region[u].clone()].iter().map(|q| sign * unit * q));
-        for k in region[w].clone() {
-            row.set_beside(1, points, w, grid[w][k], unit);
-            for j in region[v].clone() {
-                row.set_beside(0, points, v, grid[v][j], unit);
-                row.set_edges(sign);
-                let first = j * strides[v] + k * strides[w] + region[u].start * strides[u];
-                let mut product =
-                    [&mut self.real[first..], &mut self.imaginary[first..], &mut self.wraps[first..]];
-                let mut start = 0;
-                while start < row.queries.len() {
-                    start += if row.queries.len() - start > 4 {
-                        row.multiply::<8>(start, &mut product, strides[u])
-                    } else {
-                        row.multiply::<4>(start, &mut product, strides[u])
-                    };
-                }
-            }
-        }
+    /// Multiplies by the factors of loops that lie in a direction, the sign of an axis, from a region of the grid. Turns are
+    /// counted only if they `may_turn`: the sum of all factors so far may be half a turn or more.
+    pub fn multiply(
+        &mut self,
+        grid: &Grid,
+        region: &Region,
+        loops: &[&Loop],
+        direction: (usize, f64),
+        may_turn: bool,
+    ) {
+        on_quads(Multiplication { products: self, grid, region, loops, direction, may_turn });
     }
 
     /// Adds the sums of the arguments, over 2π.
     pub fn add_to(&self, sums: &mut [f64]) {
-        const FOUR: usize = 4;
-        let parts = self.real.chunks(FOUR).zip(self.imaginary.chunks(FOUR)).zip(self.wraps.chunks(FOUR));
-        for (sums, ((real, imaginary), wraps)) in sums.chunks_mut(FOUR).zip(parts) {
+        let parts = self.real.chunks(LANES).zip(self.imaginary.chunks(LANES)).zip(self.wraps.chunks(LANES));
+        for (sums, ((real, imaginary), wraps)) in sums.chunks_mut(LANES).zip(parts) {
             let lanes = |from: &[f64], rest: f64| {
                 f64x4::from(std::array::from_fn(|k| from.get(k).copied().unwrap_or(rest)))
             };
@@ -135,25 +116,78 @@ impl Products {
     }
 }
 
+struct Multiplication<'a> {
+    products: &'a mut Products,
+    grid: &'a Grid,
+    region: &'a Region,
+    loops: &'a [&'a Loop],
+    direction: (usize, f64),
+    may_turn: bool,
+}
+
+impl QuadWork for Multiplication<'_> {
+    #[inline(always)]
+    fn run<Q: Quad>(self) {
+        let Multiplication { products, grid, region, loops, direction: (u, sign), may_turn } = self;
+        let [v, w] = [(u + 1) % 3, (u + 2) % 3];
+        let strides = [1, products.counts[0], products.counts[0] * products.counts[1]];
+        let (row, unit) = (&mut products.row, products.unit);
+        row.set_loops(loops);
+        let points = std::mem::take(&mut row.points);
+        row.along.clear();
+        row.along.extend(points.iter().map(|p| sign * unit * p[u]));
+        row.queries.clear();
+        row.queries.extend(grid[u][region[u].clone()].iter().map(|q| sign * unit * q));
+        for k in region[w].clone() {
+            row.set_beside(1, &points, w, grid[w][k], unit);
+            for j in region[v].clone() {
+                row.set_beside(0, &points, v, grid[v][j], unit);
+                row.set_edges(sign);
+                let first = j * strides[v] + k * strides[w] + region[u].start * strides[u];
+                let parts = [&mut products.real, &mut products.imaginary, &mut products.wraps];
+                let mut product = parts.map(|part| &mut part[first..]);
+                let mut start = 0;
+                while start < row.queries.len() {
+                    start += match (row.queries.len() - start > LANES, may_turn) {
+                        (true, true) => row.multiply::<Q, 2, true>(start, &mut product, strides[u]),
+                        (true, false) => row.multiply::<Q, 2, false>(start, &mut product, strides[u]),
+                        (false, true) => row.multiply::<Q, 1, true>(start, &mut product, strides[u]),
+                        (false, false) => row.multiply::<Q, 1, false>(start, &mut product, strides[u]),
+                    };
+                }
+            }
+        }
+    }
+}
+
 impl Row {
+    fn set_loops(&mut self, loops: &[&Loop]) {
+        self.points.clear();
+        self.ends.clear();
+        for one in loops {
+            self.points.extend(one.points.last());
+            self.points.extend(&one.points);
+            self.ends.push(self.points.len());
+        }
+    }
+
     #[inline(always)]
     fn set_beside(&mut self, side: usize, points: &[Vec3], axis: usize, query: f64, unit: f64) {
-        let relative = |p: &Vec3| unit * (p[axis] - query);
         let beside = &mut self.beside[side];
         beside.clear();
-        beside.extend(points.last().map(relative));
-        beside.extend(points.iter().map(relative));
+        beside.extend(points.iter().map(|p| unit * (p[axis] - query)));
     }
 
     #[inline(always)]
     fn set_edges(&mut self, sign: f64) {
         let [v, w] = self.beside.each_ref().map(|b| &b[..]);
-        let count = v.len() - 1;
+        let count = v.len();
         for part in [&mut self.squared, &mut self.real, &mut self.imaginary] {
             part.resize(count, 0.0);
         }
-        let (av, aw, bv, bw) = (&v[..count], &w[..count], &v[1..], &w[1..]);
-        let parts = self.squared.iter_mut().zip(&mut self.real).zip(&mut self.imaginary);
+        self.squared[0] = v[0] * v[0] + w[0] * w[0];
+        let (av, aw, bv, bw) = (&v[..count - 1], &w[..count - 1], &v[1..], &w[1..]);
+        let parts = self.squared[1..].iter_mut().zip(&mut self.real[1..]).zip(&mut self.imaginary[1..]);
         for (k, ((squared, real), imaginary)) in parts.enumerate() {
             *squared = bv[k] * bv[k] + bw[k] * bw[k];
             *real = av[k] * bv[k] + aw[k] * bw[k];
@@ -161,62 +195,68 @@ impl Row {
         }
     }
 
-    /// Multiplies by the factors of all edges at up to `W` queries of the row from one on; gives `W`.
+    /// Multiplies by the factors of all edges at up to `N` quads of queries of the row from one on; gives how many that is.
     #[inline(always)]
-    fn multiply<const W: usize>(&self, start: usize, product: &mut [&mut [f64]; 3], stride: usize) -> usize {
+    fn multiply<Q: Quad, const N: usize, const MAY_TURN: bool>(
+        &self,
+        start: usize,
+        product: &mut [&mut [f64]; 3],
+        stride: usize,
+    ) -> usize {
         let queries = &self.queries[start..];
-        let last = queries.len().min(W) - 1;
-        let place = |lane: usize| (start + lane.min(last)) * stride;
-        let q: [f64; W] = std::array::from_fn(|lane| queries[lane.min(last)]);
-        let [mut x, mut y, mut wraps]: [[f64; W]; 3] =
-            product.each_ref().map(|part| std::array::from_fn(|lane| part[place(lane)]));
+        let last = queries.len().min(N * LANES) - 1;
+        let place = |i: usize| (start + i.min(last)) * stride;
+        let quads = |at: &dyn Fn(usize) -> f64| -> [Q; N] {
+            std::array::from_fn(|n| Q::new(std::array::from_fn(|lane| at(n * LANES + lane))))
+        };
+        let q = quads(&|i| queries[i.min(last)]);
+        let [mut x, mut y, mut wraps] = product.each_ref().map(|part| quads(&|i| part[place(i)]));
         let count = self.along.len();
+        assert!(self.ends.last() == Some(&count));
         let (along, squared) = (&self.along[..count], &self.squared[..count]);
         let (constants, turns) = (&self.real[..count], &self.imaginary[..count]);
-        let s = |k: usize| -> [f64; W] {
-            std::array::from_fn(|lane| {
-                let along = along[k] - q[lane];
-                along + (along * along + squared[k]).sqrt()
-            })
+        let s = |k: usize, q: Q| {
+            let along = Q::splat(along[k]).minus(q);
+            along.plus(along.times(along).plus(Q::splat(squared[k])).sqrt())
         };
-        let mut from = s(count - 1);
-        for k in 0..count {
-            let to = s(k);
-            let turn = turns[k];
-            let before = y;
-            for lane in 0..W {
-                let factor = from[lane] * to[lane] + constants[k];
-                let (re, im) = (x[lane], y[lane]);
-                x[lane] = re * factor - im * turn;
-                y[lane] = re * turn + im * factor;
-            }
-            // By less than a quarter of a turn: out of the upper half-plane into the lower one, or back.
-            for lane in 0..W {
-                let (was_upper, is_upper) = (before[lane] >= 0.0, y[lane] >= 0.0);
-                let up = turn >= 0.0;
-                wraps[lane] += if up && was_upper && !is_upper { 1.0 } else { 0.0 };
-                wraps[lane] -= if !up && !was_upper && is_upper { 1.0 } else { 0.0 };
-            }
-            from = to;
-            if k % EDGES_PER_SCALE == EDGES_PER_SCALE - 1 || k == count - 1 {
-                for lane in 0..W {
-                    let scale = reciprocal_power_of_two(x[lane].abs() + y[lane].abs());
-                    x[lane] *= scale;
-                    y[lane] *= scale;
+        let quarter = Q::splat(0.25);
+        let mut start = 0;
+        for end in &self.ends {
+            let mut from = q.map(|q| s(start, q));
+            for k in start + 1..*end {
+                let (constant, turn) = (Q::splat(constants[k]), Q::splat(turns[k]));
+                for n in 0..N {
+                    let to = s(k, q[n]);
+                    let factor = from[n].times(to).plus(constant);
+                    from[n] = to;
+                    let was = y[n].with_signs_on(quarter);
+                    let (re, im) = (x[n], y[n]);
+                    x[n] = re.times(factor).minus(im.times(turn));
+                    y[n] = re.times(turn).plus(im.times(factor));
+                    if !MAY_TURN {
+                        continue;
+                    }
+                    // By less than a quarter of a turn: out of the upper half-plane into the lower one, or back.
+                    let passed = was.minus(y[n].with_signs_on(quarter));
+                    wraps[n] = wraps[n].plus(passed.plus(turn.with_signs_on(passed.abs())));
+                }
+                if k % EDGES_PER_SCALE == 0 || k == *end - 1 {
+                    for n in 0..N {
+                        let scale = x[n].abs().plus(y[n].abs()).reciprocal_power_of_two();
+                        (x[n], y[n]) = (x[n].times(scale), y[n].times(scale));
+                    }
                 }
             }
+            start = *end;
         }
         for (part, result) in product.iter_mut().zip([x, y, wraps]) {
-            (0..=last).for_each(|lane| part[place(lane)] = result[lane]);
+            for n in 0..N {
+                let values = result[n].to_array();
+                (0..LANES)
+                    .filter(|lane| n * LANES + lane <= last)
+                    .for_each(|lane| part[place(n * LANES + lane)] = values[lane]);
+            }
         }
-        W
+        N * LANES
     }
-}
-
-/// 2⁻ᵉ for a positive normal number with exponent e: it keeps products from overflowing and rounds nothing.
-#[inline(always)]
-fn reciprocal_power_of_two(x: f64) -> f64 {
-    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
-    const TWICE_BIAS: u64 = 0x7fe0_0000_0000_0000;
-    f64::from_bits(TWICE_BIAS - (x.to_bits() & EXPONENT))
 }

@@ -17,7 +17,7 @@ use loops::{Loop, loops};
 use std::ops::Range;
 
 /// Numbers of Chebyshev nodes along an axis to choose from.
-const NODES: [usize; 8] = [3, 4, 6, 8, 10, 12, 14, 16];
+const NODES: [usize; 9] = [2, 3, 4, 6, 8, 10, 12, 14, 16];
 /// What the error of an "exact" field may be beside rounding.
 const EXACT: f64 = 1e-12;
 /// Bounds of interpolation errors are at least this many times what is seen (300 times for 1e-5 on the bunny, more for finer
@@ -228,10 +228,12 @@ impl Block<'_> {
         let region = all(&points);
         let bounds = box_of(grid, &all(grid));
         let mut products = Products::of(&points, self.field.unit);
-        for l in &plan.far {
-            let one = &self.field.loops[*l as usize];
-            let direction = away(&bounds, &one.bounds).expect("loops that are far are apart");
-            products.multiply(&points, &region, &one.points, direction);
+        let far: Vec<&Loop> = plan.far.iter().map(|l| &self.field.loops[*l as usize]).collect();
+        let (few, rest) = within_half_a_turn(&bounds, &far);
+        for (loops, may_turn) in [(few, false), (rest, true)] {
+            for (direction, loops) in by_direction(&bounds, &loops).0 {
+                products.multiply(&points, &region, &loops, direction, may_turn);
+            }
         }
         products.add_to(&mut values);
         Some(Interpolant { nodes, values })
@@ -257,10 +259,18 @@ impl Block<'_> {
             return;
         }
         let everywhere = all(grid);
-        let mut sum = Sum { caps: self.caps, grid, products: Products::of(grid, self.field.unit) };
+        let mut products = Products::of(grid, self.field.unit);
         let mut values = vec![0.0; grid.iter().map(Vec::len).product()];
-        loops.iter().for_each(|l| sum.add(&everywhere, &self.field.loops[*l as usize], &mut values));
-        sum.products.add_to(&mut values);
+        let loops: Vec<&Loop> = loops.iter().map(|l| &self.field.loops[*l as usize]).collect();
+        let bounds = box_of(grid, &everywhere);
+        let (few, mut rest) = within_half_a_turn(&bounds, &loops);
+        let (apart, others) = by_direction(&bounds, &few);
+        for (direction, loops) in apart {
+            products.multiply(grid, &everywhere, &loops, direction, false);
+        }
+        rest.extend(others);
+        Sum { caps: self.caps, grid, products: &mut products, values: &mut values }.add(&everywhere, &rest);
+        products.add_to(&mut values);
         self.add(region, &values);
     }
 }
@@ -269,23 +279,26 @@ impl Block<'_> {
 struct Sum<'a> {
     caps: &'a [[Vec3; 3]],
     grid: &'a Grid,
-    products: Products,
+    products: &'a mut Products,
+    values: &'a mut [f64],
 }
 
 impl Sum<'_> {
-    /// Adds a loop's field at the samples of a region, from as far as that can be: to the products, or to the values.
-    fn add(&mut self, region: &Region, one: &Loop, values: &mut [f64]) {
-        let bounds = box_of(self.grid, region);
-        if let Some(direction) = away(&bounds, &one.bounds) {
-            self.products.multiply(self.grid, region, &one.points, direction);
+    /// Adds the field of loops at the samples of a region: to the products where they are apart, else to the values.
+    fn add(&mut self, region: &Region, loops: &[&Loop]) {
+        let (apart, others) = by_direction(&box_of(self.grid, region), loops);
+        for (direction, loops) in apart {
+            self.products.multiply(self.grid, region, &loops, direction, true);
+        }
+        if others.is_empty() {
         } else if region.iter().any(|range| range.len() > FEW_INSIDE) {
-            each_part(region, FEW_INSIDE, |part| self.add(&part, one, values));
+            each_part(region, FEW_INSIDE, |part| self.add(&part, &others));
         } else {
-            self.add_carefully(region, one, values);
+            others.iter().for_each(|one| self.add_carefully(region, one));
         }
     }
 
-    fn add_carefully(&self, region: &Region, one: &Loop, values: &mut [f64]) {
+    fn add_carefully(&mut self, region: &Region, one: &Loop) {
         let places: Vec<[usize; 3]> = region[2]
             .clone()
             .flat_map(|k| region[1].clone().map(move |j| (j, k)))
@@ -297,18 +310,49 @@ impl Sum<'_> {
             let fractions = fractions_of(&one.points, &queries);
             for (([i, j, k], q), fraction) in four.iter().zip(queries).zip(fractions) {
                 let crossings = crossings_of_caps(&self.caps[one.caps.clone()], q);
-                values[(k * self.grid[1].len() + j) * self.grid[0].len() + i] +=
-                    fraction - f64::from(crossings);
+                let place = (k * self.grid[1].len() + j) * self.grid[0].len() + i;
+                self.values[place] += fraction - f64::from(crossings);
             }
         }
     }
+}
+
+/// Loops whose winding numbers add up to less than a half all through a block; and the others.
+fn within_half_a_turn<'a>(block: &Aabb, loops: &[&'a Loop]) -> (Vec<&'a Loop>, Vec<&'a Loop>) {
+    let mut turns = 0.0;
+    loops.iter().partition(|one| {
+        let most = largest(one.area, &one.bounds, block);
+        let fits = turns + most < 0.49;
+        turns += if fits { most } else { 0.0 };
+        fits
+    })
+}
+
+type ByDirection<'a> = Vec<((usize, f64), Vec<&'a Loop>)>;
+
+/// Loops that are apart from a block, by the direction in which they lie; and the others.
+fn by_direction<'a>(block: &Aabb, loops: &[&'a Loop]) -> (ByDirection<'a>, Vec<&'a Loop>) {
+    let (mut apart, mut others): (ByDirection, _) = (Vec::new(), Vec::new());
+    for &one in loops {
+        match away(block, &one.bounds) {
+            None => others.push(one),
+            Some(direction) => match apart.iter_mut().find(|(d, _)| *d == direction) {
+                Some((_, loops)) => loops.push(one),
+                None => apart.push((direction, vec![one])),
+            },
+        }
+    }
+    (apart, others)
 }
 
 /// Calls `each` for the parts of a region, halved along each axis of many samples.
 fn each_part(region: &Region, few: usize, mut each: impl FnMut(Region)) {
     let halves = |axis: usize| {
         let Range { start, end } = region[axis].clone();
-        let middle = if end - start > few { start + (end - start) / 2 } else { start };
+        // Whole vector registers in the first half.
+        let half =
+            if end - start > 2 * few { ((end - start) / 2).next_multiple_of(4) } else { (end - start) / 2 };
+        let middle = if end - start > few { start + half } else { start };
         [start..middle, middle..end]
     };
     let [x, y, z] = [0, 1, 2].map(halves);
