@@ -101,7 +101,7 @@ fn a_field_takes_at_most_120_bytes_per_triangle_beside_the_soup() {
     for (name, soup) in [("closed", closed()), ("open", open()), ("pieces", joined(&[closed(), closed()]))] {
         let [held, peak] = bytes_per_triangle(name, soup);
         assert!(held <= MOST_BYTES_PER_TRIANGLE, "{name}: {held}");
-        assert!(peak <= 1.25 * MOST_BYTES_PER_TRIANGLE, "{name}: {peak} while it is built");
+        assert!(peak <= 1.5 * MOST_BYTES_PER_TRIANGLE, "{name}: {peak} while it is built");
     }
 }
 

@@ -49,7 +49,7 @@ pub fn slice(
 ) -> Result<Vec<Layer>, SliceError> {
     let slicer = contour::Slicer::new(field, config)?;
     let spans = plan.spans(field.bounds().min.z, field.bounds().max.z)?;
-    field.prepare_points();
+    field.prepare_single_points();
     let mut layers = Vec::with_capacity(spans.len());
     // Two layers for each thread between reports: enough to keep all busy, soon enough to cancel.
     for block in spans.chunks(2 * threads()) {

@@ -144,7 +144,7 @@ fn along_the_level_set(
     monitor: &dyn Monitor,
 ) -> Result<Vec<u8>, VoxelError> {
     let mut states = zeroed::<State>(lattice.len())?;
-    field.prepare_points();
+    field.prepare_single_points();
     let corner = lattice.origin - 0.5 * lattice.spacing;
     let mut wave: Vec<usize> = cells_of_shape(field.shape(), corner, lattice.spacing)
         .into_iter()

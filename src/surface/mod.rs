@@ -51,7 +51,7 @@ pub fn extract(
     };
     let grid = SurfaceGrid { origin: lattice.origin, spacing: lattice.spacing.x };
     let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
-    field.prepare_points();
+    field.prepare_single_points();
     let inside = |p: Vec3, scratch: &mut Scratch| field.is_above(p, config.level, scratch);
     Ok(trace_surface(&grid, &seeds, inside, monitor)?)
 }

@@ -97,6 +97,7 @@ impl Closure {
         let is_loose = |corners: &[u32; 3]| of_root[roots[corners[0] as usize] as usize].is_loose();
         self.is_loose = soup.triangles().iter().map(is_loose).collect();
         self.loose = (0..soup.len() as u32).filter(|t| self.is_loose[*t as usize]).collect();
+        self.loose.shrink_to_fit();
     }
 
     /// Whether every component is closed.

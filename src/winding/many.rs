@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 /// From so many scattered points on they are sorted into blocks; fewer are walked one by one.
 pub const MANY: usize = 1024;
-/// Most sources in a leaf: of 4, 6, 8, 11 and 16 the middle ones need least work on the bunny, and 11 a quarter less memory than 8.
-const LEAF: usize = 10;
+/// Most sources in a leaf. Leaves of 6 to 14 need about as much work on the bunny; the larger ones take less memory.
+const LEAF: usize = 12;
 /// Largest errors of the looks that an inside test takes before the direct sum.
 const LOOKS: [f64; 3] = [2.5e-2, 2e-3, 1e-4];
 

@@ -227,17 +227,16 @@ impl SoupField {
         capped + self.closure.loose.iter().map(sides).sum::<Vec3>()
     }
 
-    /// Builds what scattered points need, if it is not there.
+    /// Builds what many scattered points need, if it is not there.
     pub fn prepare_points(&self) {
         self.locator();
         self.answers();
-        self.tree();
     }
 
-    /// Builds what many points at once need, if it is not there.
-    pub fn prepare_many_points(&self) {
-        self.locator();
-        self.answers();
+    /// Builds what single points need, if it is not there.
+    pub fn prepare_single_points(&self) {
+        self.prepare_points();
+        self.tree();
     }
 
     /// Crossings of the surface and the caps by the ray from `q`; none if `q` lies on the surface.
