@@ -16,6 +16,8 @@ use wide::f64x4;
 
 /// Queries taken together.
 const LANES: usize = 4;
+/// Whether two quads at once pay for their code.
+const SEVERAL: bool = cfg!(not(target_arch = "wasm32"));
 /// Edges between two corrections of the product's exponent.
 const EDGES_PER_SCALE: usize = 8;
 /// Boxes count as apart only if the gap is this share of the loop's size: nearer, chords between two loops of a cycle would
@@ -148,7 +150,7 @@ impl QuadWork for Multiplication<'_> {
                 let mut product = parts.map(|part| &mut part[first..]);
                 let mut start = 0;
                 while start < row.queries.len() {
-                    start += match (row.queries.len() - start > LANES, may_turn) {
+                    start += match (SEVERAL && row.queries.len() - start > LANES, may_turn) {
                         (true, true) => row.multiply::<Q, 2, true>(start, &mut product, strides[u]),
                         (true, false) => row.multiply::<Q, 2, false>(start, &mut product, strides[u]),
                         (false, true) => row.multiply::<Q, 1, true>(start, &mut product, strides[u]),

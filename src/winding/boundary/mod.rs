@@ -4,17 +4,17 @@
 //! with a bound of the error from the loop's area and distance; what is too near for that is passed on to the parts of the
 //! block, at last summed at the samples themselves. So most of a lattice costs some multiplications for each sample.
 mod curtains;
+mod direct;
 mod interpolant;
 mod loops;
 
-use super::closure::crossings_of_caps;
-use super::curtain::{LANES, fractions_of};
 use crate::data::Lattice;
-use crate::math::{Aabb, Nodes, Vec3};
+use crate::math::{Aabb, Nodes, Quad, Vec3};
 use curtains::{Grid, Products, Region, all, away, box_of, largest};
+use direct::{by_direction, each_part, sum_directly, within_half_a_turn};
 use interpolant::{Interpolant, interpolation_error};
 use loops::{Loop, loops};
-use std::ops::Range;
+use wide::f64x4;
 
 /// Numbers of Chebyshev nodes along an axis to choose from.
 const NODES: [usize; 9] = [2, 3, 4, 6, 8, 10, 12, 14, 16];
@@ -23,9 +23,8 @@ const EXACT: f64 = 1e-12;
 /// Bounds of interpolation errors are at least this many times what is seen (300 times for 1e-5 on the bunny, more for finer
 /// and coarser ones): where an error is promised but no proof.
 const MARGIN: f64 = 100.0;
-/// Axes with up to this many samples are not divided, and in the box of a loop.
+/// Axes with up to this many samples are not divided.
 const FEW: usize = 4;
-const FEW_INSIDE: usize = 2;
 /// Costs of a sample or node, in those of an edge seen from it: of interpolation, for each node along an axis; of the
 /// arctangent.
 const INTERPOLATION_COST: f64 = 0.15;
@@ -44,8 +43,7 @@ impl BoundaryField {
     pub fn new(cycles: &[Vec<Vec3>], caps: &[[Vec3; 3]]) -> BoundaryField {
         let loops = loops(cycles, caps);
         let size = loops.iter().map(|l| l.bounds).fold(Aabb::EMPTY, Aabb::union).size().max_element();
-        let exponent = if size > 0.0 { size.log2().floor() } else { 0.0 };
-        let unit = 2f64.powi(-exponent as i32);
+        let unit = f64x4::splat(size).reciprocal_power_of_two().to_array()[0];
         BoundaryField { area: loops.iter().map(|l| l.area).sum(), loops, unit }
     }
 
@@ -258,109 +256,9 @@ impl Block<'_> {
         if loops.is_empty() {
             return;
         }
-        let everywhere = all(grid);
-        let mut products = Products::of(grid, self.field.unit);
-        let mut values = vec![0.0; grid.iter().map(Vec::len).product()];
         let loops: Vec<&Loop> = loops.iter().map(|l| &self.field.loops[*l as usize]).collect();
-        let bounds = box_of(grid, &everywhere);
-        let (few, mut rest) = within_half_a_turn(&bounds, &loops);
-        let (apart, others) = by_direction(&bounds, &few);
-        for (direction, loops) in apart {
-            products.multiply(grid, &everywhere, &loops, direction, false);
-        }
-        rest.extend(others);
-        Sum { caps: self.caps, grid, products: &mut products, values: &mut values }.add(&everywhere, &rest);
-        products.add_to(&mut values);
+        let values = sum_directly(self.caps, self.field.unit, grid, &loops);
         self.add(region, &values);
-    }
-}
-
-/// A direct sum at the samples of a grid.
-struct Sum<'a> {
-    caps: &'a [[Vec3; 3]],
-    grid: &'a Grid,
-    products: &'a mut Products,
-    values: &'a mut [f64],
-}
-
-impl Sum<'_> {
-    /// Adds the field of loops at the samples of a region: to the products where they are apart, else to the values.
-    fn add(&mut self, region: &Region, loops: &[&Loop]) {
-        let (apart, others) = by_direction(&box_of(self.grid, region), loops);
-        for (direction, loops) in apart {
-            self.products.multiply(self.grid, region, &loops, direction, true);
-        }
-        if others.is_empty() {
-        } else if region.iter().any(|range| range.len() > FEW_INSIDE) {
-            each_part(region, FEW_INSIDE, |part| self.add(&part, &others));
-        } else {
-            others.iter().for_each(|one| self.add_carefully(region, one));
-        }
-    }
-
-    fn add_carefully(&mut self, region: &Region, one: &Loop) {
-        let places: Vec<[usize; 3]> = region[2]
-            .clone()
-            .flat_map(|k| region[1].clone().map(move |j| (j, k)))
-            .flat_map(|(j, k)| region[0].clone().map(move |i| [i, j, k]))
-            .collect();
-        for four in places.chunks(LANES) {
-            let point = |place: [usize; 3]| Vec3::from_array(std::array::from_fn(|a| self.grid[a][place[a]]));
-            let queries = std::array::from_fn(|k| point(four[k.min(four.len() - 1)]));
-            let fractions = fractions_of(&one.points, &queries);
-            for (([i, j, k], q), fraction) in four.iter().zip(queries).zip(fractions) {
-                let crossings = crossings_of_caps(&self.caps[one.caps.clone()], q);
-                let place = (k * self.grid[1].len() + j) * self.grid[0].len() + i;
-                self.values[place] += fraction - f64::from(crossings);
-            }
-        }
-    }
-}
-
-/// Loops whose winding numbers add up to less than a half all through a block; and the others.
-fn within_half_a_turn<'a>(block: &Aabb, loops: &[&'a Loop]) -> (Vec<&'a Loop>, Vec<&'a Loop>) {
-    let mut turns = 0.0;
-    loops.iter().partition(|one| {
-        let most = largest(one.area, &one.bounds, block);
-        let fits = turns + most < 0.49;
-        turns += if fits { most } else { 0.0 };
-        fits
-    })
-}
-
-type ByDirection<'a> = Vec<((usize, f64), Vec<&'a Loop>)>;
-
-/// Loops that are apart from a block, by the direction in which they lie; and the others.
-fn by_direction<'a>(block: &Aabb, loops: &[&'a Loop]) -> (ByDirection<'a>, Vec<&'a Loop>) {
-    let (mut apart, mut others): (ByDirection, _) = (Vec::new(), Vec::new());
-    for &one in loops {
-        match away(block, &one.bounds) {
-            None => others.push(one),
-            Some(direction) => match apart.iter_mut().find(|(d, _)| *d == direction) {
-                Some((_, loops)) => loops.push(one),
-                None => apart.push((direction, vec![one])),
-            },
-        }
-    }
-    (apart, others)
-}
-
-/// Calls `each` for the parts of a region, halved along each axis of many samples.
-fn each_part(region: &Region, few: usize, mut each: impl FnMut(Region)) {
-    let halves = |axis: usize| {
-        let Range { start, end } = region[axis].clone();
-        // Whole vector registers in the first half.
-        let half =
-            if end - start > 2 * few { ((end - start) / 2).next_multiple_of(4) } else { (end - start) / 2 };
-        let middle = if end - start > few { start + half } else { start };
-        [start..middle, middle..end]
-    };
-    let [x, y, z] = [0, 1, 2].map(halves);
-    for part in 0..8 {
-        let part = [x[part & 1].clone(), y[part >> 1 & 1].clone(), z[part >> 2].clone()];
-        if part.iter().all(|range| !range.is_empty()) {
-            each(part);
-        }
     }
 }
 

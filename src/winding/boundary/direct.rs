@@ -1,0 +1,116 @@
+//! Loops summed at the samples of a block themselves: from beside where a part of the block is apart from the loop, with
+//! exact predicates where it is not.
+use super::curtains::{Grid, Products, Region, all, away, box_of, largest};
+use super::loops::Loop;
+use crate::math::{Aabb, Vec3};
+use crate::winding::closure::crossings_of_caps;
+use crate::winding::curtain::{LANES, fractions_of};
+use std::ops::Range;
+
+/// Axes with up to this many samples are not divided in the box of a loop.
+const FEW_INSIDE: usize = 2;
+
+/// The field of loops at the samples of a grid, x fastest; `caps` are all of the closure's, `unit` as for [`Products`].
+pub fn sum_directly(caps: &[[Vec3; 3]], unit: f64, grid: &Grid, loops: &[&Loop]) -> Vec<f64> {
+    let everywhere = all(grid);
+    let mut products = Products::of(grid, unit);
+    let mut values = vec![0.0; grid.iter().map(Vec::len).product()];
+    let bounds = box_of(grid, &everywhere);
+    let (few, mut rest) = within_half_a_turn(&bounds, loops);
+    let (apart, others) = by_direction(&bounds, &few);
+    for (direction, loops) in apart {
+        products.multiply(grid, &everywhere, &loops, direction, false);
+    }
+    rest.extend(others);
+    Sum { caps, grid, products: &mut products, values: &mut values }.add(&everywhere, &rest);
+    products.add_to(&mut values);
+    values
+}
+
+struct Sum<'a> {
+    caps: &'a [[Vec3; 3]],
+    grid: &'a Grid,
+    products: &'a mut Products,
+    values: &'a mut [f64],
+}
+
+impl Sum<'_> {
+    /// Adds the field of loops at the samples of a region: to the products where they are apart, else to the values.
+    fn add(&mut self, region: &Region, loops: &[&Loop]) {
+        let (apart, others) = by_direction(&box_of(self.grid, region), loops);
+        for (direction, loops) in apart {
+            self.products.multiply(self.grid, region, &loops, direction, true);
+        }
+        if others.is_empty() {
+        } else if region.iter().any(|range| range.len() > FEW_INSIDE) {
+            each_part(region, FEW_INSIDE, |part| self.add(&part, &others));
+        } else {
+            others.iter().for_each(|one| self.add_carefully(region, one));
+        }
+    }
+
+    fn add_carefully(&mut self, region: &Region, one: &Loop) {
+        let places: Vec<[usize; 3]> = region[2]
+            .clone()
+            .flat_map(|k| region[1].clone().map(move |j| (j, k)))
+            .flat_map(|(j, k)| region[0].clone().map(move |i| [i, j, k]))
+            .collect();
+        for four in places.chunks(LANES) {
+            let point = |place: [usize; 3]| Vec3::from_array(std::array::from_fn(|a| self.grid[a][place[a]]));
+            let queries = std::array::from_fn(|k| point(four[k.min(four.len() - 1)]));
+            let fractions = fractions_of(&one.points, &queries);
+            for (([i, j, k], q), fraction) in four.iter().zip(queries).zip(fractions) {
+                let crossings = crossings_of_caps(&self.caps[one.caps.clone()], q);
+                let place = (k * self.grid[1].len() + j) * self.grid[0].len() + i;
+                self.values[place] += fraction - f64::from(crossings);
+            }
+        }
+    }
+}
+
+/// Loops whose winding numbers add up to less than a half all through a block; and the others.
+pub fn within_half_a_turn<'a>(block: &Aabb, loops: &[&'a Loop]) -> (Vec<&'a Loop>, Vec<&'a Loop>) {
+    let mut turns = 0.0;
+    loops.iter().partition(|one| {
+        let most = largest(one.area, &one.bounds, block);
+        let fits = turns + most < 0.49;
+        turns += if fits { most } else { 0.0 };
+        fits
+    })
+}
+
+pub type ByDirection<'a> = Vec<((usize, f64), Vec<&'a Loop>)>;
+
+/// Loops that are apart from a block, by the direction in which they lie; and the others.
+pub fn by_direction<'a>(block: &Aabb, loops: &[&'a Loop]) -> (ByDirection<'a>, Vec<&'a Loop>) {
+    let (mut apart, mut others): (ByDirection, _) = (Vec::new(), Vec::new());
+    for &one in loops {
+        match away(block, &one.bounds) {
+            None => others.push(one),
+            Some(direction) => match apart.iter_mut().find(|(d, _)| *d == direction) {
+                Some((_, loops)) => loops.push(one),
+                None => apart.push((direction, vec![one])),
+            },
+        }
+    }
+    (apart, others)
+}
+
+/// Calls `each` for the parts of a region, halved along each axis of many samples.
+pub fn each_part(region: &Region, few: usize, mut each: impl FnMut(Region)) {
+    let halves = |axis: usize| {
+        let Range { start, end } = region[axis].clone();
+        // Whole vector registers in the first half.
+        let half =
+            if end - start > 2 * few { ((end - start) / 2).next_multiple_of(4) } else { (end - start) / 2 };
+        let middle = if end - start > few { start + half } else { start };
+        [start..middle, middle..end]
+    };
+    let [x, y, z] = [0, 1, 2].map(halves);
+    for part in 0..8 {
+        let part = [x[part & 1].clone(), y[part >> 1 & 1].clone(), z[part >> 2].clone()];
+        if part.iter().all(|range| !range.is_empty()) {
+            each(part);
+        }
+    }
+}
