@@ -152,9 +152,11 @@ fn exponent(text: &[u8]) -> Option<i64> {
         [b'+', digits @ ..] => (1, digits),
         digits => (1, digits),
     };
-    let all_digits = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
+    if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
+        return None;
+    }
     let value = digits.iter().fold(0, |value: i64, b| (10 * value + i64::from(b - b'0')).min(1 << 40));
-    all_digits.then_some(sign * value)
+    Some(sign * value)
 }
 
 /// What a product of two numbers and its rounded value differ by (Dekker 1971, without fused operations).
