@@ -91,8 +91,6 @@ export async function wasmToolchain() {
 export function wasmEnvironment(toolchain) {
   const environment = {
     CARGO_UNSTABLE_BUILD_STD: 'panic_unwind,std',
-    // Small sorts and small formatting in place of fast ones: what is hot here sorts by buckets, and formats nothing.
-    CARGO_UNSTABLE_BUILD_STD_FEATURES: 'panic-unwind,optimize_for_size',
     CARGO_PROFILE_RELEASE_PANIC: 'unwind',
     CARGO_PROFILE_RELEASE_LTO: 'fat',
     CARGO_PROFILE_RELEASE_CODEGEN_UNITS: '1',

@@ -25,12 +25,23 @@ const THREADS = [
 /** With ssa-nomerge (binaryen 132) the threads build hangs for ever when its pool is made; no other pass of -O3 does that. */
 const OPTIMISATION = ['-O3', '--skip-pass=ssa-nomerge'];
 
-/** Each build by name: its flags, the target directory it shares, and features of the crate. */
+/**
+ * What makes the build without threads smaller: the library alone (together with an rlib, cargo leaves out the optimisation
+ * across crates), and small sorts and formatting in place of fast ones (what is hot here sorts by buckets, and formats
+ * nothing). The threads build has room without them; with them its pool of one thread sometimes never starts.
+ */
+const SMALL = {
+  command: ['rustc', '--lib', '--crate-type', 'cdylib'],
+  environment: { CARGO_UNSTABLE_BUILD_STD_FEATURES: 'panic-unwind,optimize_for_size' },
+};
+const PLAIN = { command: ['build', '--lib'], environment: {} };
+
+/** Each build by name: its flags, the target directory it shares, features of the crate, and how it is compiled. */
 const VARIANTS = {
-  threads: { flags: THREADS, target: 'threads', features: [] },
-  single: { flags: SIMD, target: 'single', features: [] },
+  threads: { flags: THREADS, target: 'threads', features: [], ...PLAIN },
+  single: { flags: SIMD, target: 'single', features: [], ...SMALL },
   /** Not part of the package: the threads build with calls that panic and trap on purpose. */
-  faults: { flags: THREADS, target: 'threads', features: ['faults'] },
+  faults: { flags: THREADS, target: 'threads', features: ['faults'], ...PLAIN },
 };
 
 /** Runs cargo for wasm32 with the flags of `variant`; `args` begin with the command. Resolves to what it printed. */
@@ -99,14 +110,12 @@ async function bindAndOptimise(variant) {
 
 /** Builds one variant unless its sources are as they were. Answers whether anything had to be done. */
 export async function buildVariant(variant) {
-  const { target, features } = VARIANTS[variant];
+  const { target, features, command, environment } = VARIANTS[variant];
   const stamp = join(wasmTarget(target), `built-${variant}`);
   const results = [join(wasmOutput(variant), 'fast_winding_bg.wasm')];
   return onceFor(stamp, fingerprint(RUST_INPUTS, [variant]), results, async () => {
     say(`${variant}: compiling the WebAssembly build (some minutes the first time)`);
-    // Together with an rlib, cargo leaves out the optimisation across crates: a fiftieth more to download.
-    const library = ['rustc', '--lib', '--crate-type', 'cdylib'];
-    await wasmCargo(variant, [...library, ...(features.length ? ['--features', features.join()] : [])]);
+    await wasmCargo(variant, [...command, ...(features.length ? ['--features', features.join()] : [])], environment);
     await bindAndOptimise(variant);
   });
 }
