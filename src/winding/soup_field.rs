@@ -22,8 +22,8 @@ use wide::f64x4;
 
 /// Up to this many boundary edges are summed exactly whatever the tolerance: that costs less than a walk.
 const FEW_EDGES: usize = 24;
-/// Up to this many boundary edges classifications are certified by subdivision of space; with more, the bounds of single
-/// caps decide too little.
+/// Up to this many boundary edges inside tests of scattered points are certified: what the answers of cells leave open is
+/// summed exactly, which takes too long with more.
 const CERTIFIED_EDGES: usize = 2000;
 
 /// The threshold of an inside test.
@@ -98,14 +98,9 @@ impl SoupField {
         self.closure.is_empty()
     }
 
-    /// Whether classifications on lattices are proven.
+    /// Whether classifications are proven. On lattices they are with any number of boundary edges.
     pub fn is_certified(&self) -> bool {
-        self.closure.loose.is_empty()
-    }
-
-    /// Whether those at scattered points are.
-    fn is_certified_anywhere(&self) -> bool {
-        self.is_certified() && self.curtain.edges() <= CERTIFIED_EDGES
+        self.closure.loose.is_empty() && self.curtain.edges() <= CERTIFIED_EDGES
     }
 
     /// Points whose classification needed an exact sum, since the field was built.
@@ -130,7 +125,7 @@ impl SoupField {
     }
 
     /// The tree over the sources of the fraction, if it is worth one; built when it is first needed, outside of the cell
-    /// that holds it, as the [`SoupField::index`].
+    /// that holds it, as the [`SoupField::locator`].
     fn tree(&self) -> Option<&Tree<Triangles>> {
         if self.needs_tree && self.tree.get().is_none() {
             let _ = self.tree.set(Tree::build(&self.sources, &self.config));
@@ -202,7 +197,7 @@ impl SoupField {
         if let Some(answers) = self.answers.get() {
             return answers;
         }
-        let is_known = self.is_closed() || !self.is_certified_anywhere();
+        let is_known = self.is_closed() || !self.is_certified();
         let of_cells = if is_known { vec![] } else { answers(self, self.locator()) };
         let cap_area = self.closure.caps.iter().map(|cap| area_vector(*cap).length()).sum();
         let _ = self.answers.set(Answers { of_cells, cap_area });
@@ -302,8 +297,8 @@ impl SoupField {
         touches_inside(q, &self.corners(&location.touching), principal, threshold)
     }
 
-    /// [`SoupField::touches_inside`] without the fraction, of a soup without loose components. Beside the point `least` is the least number
-    /// of crossings, of surface and caps, that is.
+    /// [`SoupField::touches_inside`] without the fraction, of a soup without loose components; beside the point, `least` is
+    /// the least number of crossings, of surface and caps, that is inside.
     pub(super) fn is_inside_on_surface(&self, q: Vec3, least: i32, threshold: f64) -> bool {
         let location = self.locator().locate(self.facets(), q, true);
         let corners = self.corners(&location.touching);
@@ -344,7 +339,7 @@ impl SoupField {
     /// their error, at last exactly.
     fn classify_by_sums(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
         let mut open: Vec<usize> = (0..points.len()).collect();
-        if !self.is_certified_anywhere() {
+        if !self.is_certified() {
             for beta in [COARSE_BETA, FINE_BETA] {
                 let near = |w: f64| (w - threshold).abs() <= SOUP_ERROR.error(beta);
                 let queries: Vec<Vec3> = open.iter().map(|k| points[*k]).collect();

@@ -95,18 +95,21 @@ impl Need {
         }
     }
 
-    /// Whether the values of a block, known to within `spread`, are good enough.
-    fn is_met(self, values: &[f64], spread: f64) -> bool {
+    /// Whether values known to within `spread` may be good enough.
+    fn may_be_met(self, spread: f64) -> bool {
         match self {
             Need::Value { tolerance } => spread <= 1e-3 * tolerance,
-            Need::Side { threshold, error } => {
-                let spread = spread + error;
-                let (low, high) = values
-                    .iter()
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
-                (threshold - low + spread).ceil() == (threshold - high - spread).ceil()
-            }
+            Need::Side { .. } => spread < 0.5,
         }
+    }
+
+    /// Whether these values of a block, for which [`Need::may_be_met`] holds, are.
+    fn is_met(self, values: &[f64], spread: f64) -> bool {
+        let Need::Side { threshold, error } = self else { return true };
+        let spread = spread + error;
+        let both = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
+        let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), both);
+        (threshold - low + spread).ceil() == (threshold - high - spread).ceil()
     }
 }
 
@@ -145,7 +148,7 @@ impl Block<'_> {
             largest(one.area, &one.bounds, &bounds)
         };
         let spread: f64 = loops.iter().map(most).sum();
-        if spread < 0.5 {
+        if self.need.may_be_met(spread) {
             let values = from.map_or_else(|| vec![0.0], |f| f.at(&grid));
             if self.need.is_met(&values, spread) {
                 if from.is_some() {
