@@ -1,5 +1,6 @@
-// Runs the benches: `native` (criterion), `wasm` (Node, beside native), `browser` (Chromium, beside three-mesh-bvh),
-// `peers` (beside other implementations) and `figures` (those of the paper, as tables and as plots in docs/figures), or
+// Runs the benches: `native` (criterion), `wasm` (Node, beside native), `scale` (up to ten million triangles), `browser`
+// (Chromium, beside three-mesh-bvh), `peers` (beside other implementations) and `figures` (those of the paper, as tables and
+// as plots in docs/figures), or
 // those named. What begins with -- and all after it goes to each of them; for the figures it is `--models` and files:
 //     npm --prefix www run bench peers -- --rounds 5
 //     npm --prefix www run bench figures -- --models part.stl scan.ply
@@ -23,6 +24,10 @@ const BENCHES = {
   async wasm(options) {
     await assemble();
     await run('node', [script('wasm.mjs'), ...options], { cwd: root });
+  },
+  async scale() {
+    await assemble();
+    await run('node', [script('scale.mjs')], { cwd: root });
   },
   async browser(options) {
     await assemble();

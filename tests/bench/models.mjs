@@ -18,6 +18,8 @@ const MAKERS = {
   knot124k: () => knot(620, 100),
   gear: () => readStl(join(packages, 'stl-models/objects/gearwheel.bin.stl')),
   bumpy1m: () => bumpySphere(366),
+  bumpy2m: () => bumpySphere(500),
+  bumpy10m: () => bumpySphere(1118),
   // As scanned, with holes.
   bunny: () => readStl(join(packages, 'stl-models/objects/bunny.bin.stl')),
   snowden: () => snowden(),
