@@ -1,5 +1,5 @@
 use crate::bvh::WIDTH;
-use crate::math::Quad;
+use crate::math::Floats;
 use std::f64::consts::TAU;
 use wide::f64x4;
 

@@ -9,7 +9,7 @@
 //!
 //! Arguments are summed as one product, with the number of times that it went around.
 use super::loops::Loop;
-use crate::math::{Aabb, Quad, QuadWork, Vec3, on_quads};
+use crate::math::{Aabb, Floats, Registers, Vec3, Work, in_widest_registers};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use wide::f64x4;
@@ -101,7 +101,7 @@ impl Products {
         direction: (usize, f64),
         may_turn: bool,
     ) {
-        on_quads(Multiplication { products: self, grid, region, loops, direction, may_turn });
+        in_widest_registers(Multiplication { products: self, grid, region, loops, direction, may_turn });
     }
 
     /// Adds the sums of the arguments, over 2π.
@@ -127,9 +127,9 @@ struct Multiplication<'a> {
     may_turn: bool,
 }
 
-impl QuadWork for Multiplication<'_> {
+impl Work for Multiplication<'_> {
     #[inline(always)]
-    fn run<Q: Quad>(self) {
+    fn run<R: Registers>(self) {
         let Multiplication { products, grid, region, loops, direction: (u, sign), may_turn } = self;
         let [v, w] = [(u + 1) % 3, (u + 2) % 3];
         let strides = [1, products.counts[0], products.counts[0] * products.counts[1]];
@@ -151,10 +151,14 @@ impl QuadWork for Multiplication<'_> {
                 let mut start = 0;
                 while start < row.queries.len() {
                     start += match (SEVERAL && row.queries.len() - start > LANES, may_turn) {
-                        (true, true) => row.multiply::<Q, 2, true>(start, &mut product, strides[u]),
-                        (true, false) => row.multiply::<Q, 2, false>(start, &mut product, strides[u]),
-                        (false, true) => row.multiply::<Q, 1, true>(start, &mut product, strides[u]),
-                        (false, false) => row.multiply::<Q, 1, false>(start, &mut product, strides[u]),
+                        (true, true) => row.multiply::<R::Doubles, 2, true>(start, &mut product, strides[u]),
+                        (true, false) => {
+                            row.multiply::<R::Doubles, 2, false>(start, &mut product, strides[u])
+                        }
+                        (false, true) => row.multiply::<R::Doubles, 1, true>(start, &mut product, strides[u]),
+                        (false, false) => {
+                            row.multiply::<R::Doubles, 1, false>(start, &mut product, strides[u])
+                        }
                     };
                 }
             }
@@ -199,7 +203,7 @@ impl Row {
 
     /// Multiplies by the factors of all edges at up to `N` quads of queries of the row from one on; gives how many that is.
     #[inline(always)]
-    fn multiply<Q: Quad, const N: usize, const MAY_TURN: bool>(
+    fn multiply<Q: Floats<Number = f64>, const N: usize, const MAY_TURN: bool>(
         &self,
         start: usize,
         product: &mut [&mut [f64]; 3],
@@ -209,7 +213,9 @@ impl Row {
         let last = queries.len().min(N * LANES) - 1;
         let place = |i: usize| (start + i.min(last)) * stride;
         let quads = |at: &dyn Fn(usize) -> f64| -> [Q; N] {
-            std::array::from_fn(|n| Q::new(std::array::from_fn(|lane| at(n * LANES + lane))))
+            std::array::from_fn(|n| {
+                Q::load(&std::array::from_fn::<f64, LANES, _>(|lane| at(n * LANES + lane)))
+            })
         };
         let q = quads(&|i| queries[i.min(last)]);
         let [mut x, mut y, mut wraps] = product.each_ref().map(|part| quads(&|i| part[place(i)]));
@@ -218,8 +224,8 @@ impl Row {
         let (along, squared) = (&self.along[..count], &self.squared[..count]);
         let (constants, turns) = (&self.real[..count], &self.imaginary[..count]);
         let s = |k: usize, q: Q| {
-            let along = Q::splat(along[k]).minus(q);
-            along.plus(along.times(along).plus(Q::splat(squared[k])).sqrt())
+            let along = Q::splat(along[k]) - q;
+            along + (along * along + Q::splat(squared[k])).sqrt()
         };
         let quarter = Q::splat(0.25);
         let mut start = 0;
@@ -229,23 +235,23 @@ impl Row {
                 let (constant, turn) = (Q::splat(constants[k]), Q::splat(turns[k]));
                 for n in 0..N {
                     let to = s(k, q[n]);
-                    let factor = from[n].times(to).plus(constant);
+                    let factor = from[n] * to + constant;
                     from[n] = to;
                     let was = y[n].with_signs_on(quarter);
                     let (re, im) = (x[n], y[n]);
-                    x[n] = re.times(factor).minus(im.times(turn));
-                    y[n] = re.times(turn).plus(im.times(factor));
+                    x[n] = re * factor - im * turn;
+                    y[n] = re * turn + im * factor;
                     if !MAY_TURN {
                         continue;
                     }
                     // By less than a quarter of a turn: out of the upper half-plane into the lower one, or back.
-                    let passed = was.minus(y[n].with_signs_on(quarter));
-                    wraps[n] = wraps[n].plus(passed.plus(turn.with_signs_on(passed.abs())));
+                    let passed = was - y[n].with_signs_on(quarter);
+                    wraps[n] = wraps[n] + (passed + turn.with_signs_on(passed.abs()));
                 }
                 if k % EDGES_PER_SCALE == 0 || k == *end - 1 {
                     for n in 0..N {
-                        let scale = x[n].abs().plus(y[n].abs()).reciprocal_power_of_two();
-                        (x[n], y[n]) = (x[n].times(scale), y[n].times(scale));
+                        let scale = (x[n].abs() + y[n].abs()).reciprocal_power_of_two();
+                        (x[n], y[n]) = (x[n] * scale, y[n] * scale);
                     }
                 }
             }
@@ -253,7 +259,8 @@ impl Row {
         }
         for (part, result) in product.iter_mut().zip([x, y, wraps]) {
             for n in 0..N {
-                let values = result[n].to_array();
+                let mut values = [0.0; LANES];
+                result[n].store(&mut values);
                 (0..LANES)
                     .filter(|lane| n * LANES + lane <= last)
                     .for_each(|lane| part[place(n * LANES + lane)] = values[lane]);

@@ -9,7 +9,7 @@ mod interpolant;
 mod loops;
 
 use crate::data::Lattice;
-use crate::math::{Aabb, Nodes, Quad, Vec3};
+use crate::math::{Aabb, Floats, Nodes, Vec3};
 use curtains::{Grid, Products, Region, all, away, box_of, largest};
 use direct::{by_direction, each_part, sum_directly, within_half_a_turn};
 use interpolant::{Interpolant, interpolation_error};
