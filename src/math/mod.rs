@@ -14,5 +14,5 @@ pub use predicates::{
     Sign, covers, meet, normal_signs, orient_yz, perturbed_side_of_plane, side_of_edge, side_of_plane,
     tie_break, touches,
 };
-pub use registers::{Floats, Registers, Work, in_widest_registers};
+pub use registers::{Floats, Plain, Registers, Work, in_widest_registers};
 pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};

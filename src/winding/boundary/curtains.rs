@@ -8,18 +8,12 @@
 //! of queries parallel to u, ζ̄_a ζ_b is constant: a square root and a complex product are left for each edge and query.
 //!
 //! Arguments are summed as one product, with the number of times that it went around.
-use super::loops::Loop;
-use crate::math::{Aabb, Floats, Registers, Vec3, Work, in_widest_registers};
-use std::f64::consts::{PI, TAU};
+use super::loops::{Loop, Polygons};
+use super::product::{Product, Side};
+use crate::math::{Aabb, Vec3};
+use std::f64::consts::PI;
 use std::ops::Range;
-use wide::f64x4;
 
-/// Queries taken together.
-const LANES: usize = 4;
-/// Whether two quads at once pay for their code.
-const SEVERAL: bool = cfg!(not(target_arch = "wasm32"));
-/// Edges between two corrections of the product's exponent.
-const EDGES_PER_SCALE: usize = 8;
 /// Boxes count as apart only if the gap is this share of the loop's size: nearer, chords between two loops of a cycle would
 /// have to cancel to the last bit.
 const GAP: f64 = 1.0 / 64.0;
@@ -56,216 +50,83 @@ pub fn largest(area: f64, bounds: &Aabb, block: &Aabb) -> f64 {
     area / (4.0 * PI * gap.length_squared())
 }
 
-/// At each query of a grid, x fastest, a product of complex numbers.
-pub struct Products {
-    /// Lengths are multiplied by this power of two.
-    unit: f64,
-    counts: [usize; 3],
-    real: Vec<f64>,
-    imaginary: Vec<f64>,
-    /// How often the product went around.
-    wraps: Vec<f64>,
-    row: Row,
-}
-
-/// What is constant along a row, for each vertex of all loops, one after the other, the last one of each once more before
-/// its first; and for the edge that leads to it.
-#[derive(Default)]
-struct Row {
-    points: Vec<Vec3>,
-    queries: Vec<f64>,
-    /// Where each loop ends.
-    ends: Vec<usize>,
-    along: Vec<f64>,
-    beside: [Vec<f64>; 2],
-    squared: Vec<f64>,
-    real: Vec<f64>,
-    imaginary: Vec<f64>,
-}
-
-impl Products {
-    pub fn of(grid: &Grid, unit: f64) -> Products {
-        let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
-        let len = counts.iter().product();
-        let [ones, zeros] = [vec![1.0; len], vec![0.0; len]];
-        Products { unit, counts, real: ones, imaginary: zeros.clone(), wraps: zeros, row: Row::default() }
-    }
-
-    /// Multiplies by the factors of loops that lie in a direction, the sign of an axis, from a region of the grid. Turns are
-    /// counted only if they `may_turn`: the sum of all factors so far may be half a turn or more.
-    pub fn multiply(
-        &mut self,
-        grid: &Grid,
-        region: &Region,
-        loops: &[&Loop],
-        direction: (usize, f64),
-        may_turn: bool,
-    ) {
-        in_widest_registers(Multiplication { products: self, grid, region, loops, direction, may_turn });
-    }
-
-    /// Adds the sums of the arguments, over 2π.
-    pub fn add_to(&self, sums: &mut [f64]) {
-        let parts = self.real.chunks(LANES).zip(self.imaginary.chunks(LANES)).zip(self.wraps.chunks(LANES));
-        for (sums, ((real, imaginary), wraps)) in sums.chunks_mut(LANES).zip(parts) {
-            let lanes = |from: &[f64], rest: f64| {
-                f64x4::from(std::array::from_fn(|k| from.get(k).copied().unwrap_or(rest)))
-            };
-            let angles = lanes(imaginary, 0.0).atan2(lanes(real, 1.0)).to_array();
-            let turns = angles.iter().zip(wraps).map(|(angle, wraps)| angle / TAU + wraps);
-            sums.iter_mut().zip(turns).for_each(|(sum, turns)| *sum += turns);
-        }
-    }
-}
-
-struct Multiplication<'a> {
-    products: &'a mut Products,
+/// Loops seen from a grid of queries, x fastest: their angles, summed as products of complex numbers, in 32-bit floats where
+/// these are good enough.
+pub struct Sums<'a> {
+    loops: &'a [Loop],
     grid: &'a Grid,
-    region: &'a Region,
-    loops: &'a [&'a Loop],
-    direction: (usize, f64),
-    may_turn: bool,
+    /// What rounding to 32 bits may add for each edge, in units of 2⁻²⁴ turns.
+    rounding: f64,
+    unit: f64,
+    coarse: Product<f32>,
+    fine: Product<f64>,
+    polygons: Polygons,
 }
 
-impl Work for Multiplication<'_> {
-    #[inline(always)]
-    fn run<R: Registers>(self) {
-        let Multiplication { products, grid, region, loops, direction: (u, sign), may_turn } = self;
-        let [v, w] = [(u + 1) % 3, (u + 2) % 3];
-        let strides = [1, products.counts[0], products.counts[0] * products.counts[1]];
-        let (row, unit) = (&mut products.row, products.unit);
-        row.set_loops(loops);
-        let points = std::mem::take(&mut row.points);
-        row.along.clear();
-        row.along.extend(points.iter().map(|p| sign * unit * p[u]));
-        row.queries.clear();
-        row.queries.extend(grid[u][region[u].clone()].iter().map(|q| sign * unit * q));
-        for k in region[w].clone() {
-            row.set_beside(1, &points, w, grid[w][k], unit);
-            for j in region[v].clone() {
-                row.set_beside(0, &points, v, grid[v][j], unit);
-                row.set_edges(sign);
-                let first = j * strides[v] + k * strides[w] + region[u].start * strides[u];
-                let parts = [&mut products.real, &mut products.imaginary, &mut products.wraps];
-                let mut product = parts.map(|part| &mut part[first..]);
-                let mut start = 0;
-                while start < row.queries.len() {
-                    start += match (SEVERAL && row.queries.len() - start > LANES, may_turn) {
-                        (true, true) => row.multiply::<R::Doubles, 2, true>(start, &mut product, strides[u]),
-                        (true, false) => {
-                            row.multiply::<R::Doubles, 2, false>(start, &mut product, strides[u])
-                        }
-                        (false, true) => row.multiply::<R::Doubles, 1, true>(start, &mut product, strides[u]),
-                        (false, false) => {
-                            row.multiply::<R::Doubles, 1, false>(start, &mut product, strides[u])
-                        }
-                    };
-                }
-            }
+/// How far the farthest point of all loops may be, in units of the distance to the nearest point of any, for products of
+/// 32-bit floats to be numbers.
+const FARTHEST: f64 = 1000.0;
+
+impl<'a> Sums<'a> {
+    /// Of some of the `loops` at the queries of a grid; `rounding` is what 32-bit floats may add for each edge, in turns, and
+    /// `unit` a power of two that brings lengths to about 1.
+    pub fn new(loops: &'a [Loop], grid: &'a Grid, unit: f64, rounding: f64) -> Sums<'a> {
+        let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
+        let rounding = rounding * f64::from(1 << 24);
+        let polygons = Polygons::default();
+        Sums { loops, grid, rounding, unit, coarse: Product::of(counts), fine: Product::of(counts), polygons }
+    }
+
+    /// Adds what is seen of loops that lie in a direction, the sign of an axis, from a region of the grid. Turns are counted
+    /// only if they `may_turn`: the sum of all so far may be half a turn or more.
+    pub fn add(&mut self, region: &Region, loops: &[u32], direction: (usize, f64), may_turn: bool) {
+        let block = box_of(self.grid, region);
+        let all = loops.iter().fold(block, |all, l| all.union(self.loops[*l as usize].bounds));
+        let farthest = all.size().length();
+        let is_coarse = |l: &u32| {
+            let bounds = &self.loops[*l as usize].bounds;
+            let gap = gap(&block, bounds, direction);
+            let ratio = block.union(*bounds).size().length() / gap;
+            rounding(ratio) <= self.rounding && farthest <= FARTHEST * gap
+        };
+        let (coarse, fine): (Vec<u32>, Vec<u32>) = loops.iter().partition(|l| is_coarse(l));
+        let side =
+            Side { grid: self.grid, region, direction, center: block.center(), unit: self.unit, may_turn };
+        if !coarse.is_empty() {
+            self.polygons.set(self.loops, &coarse);
+            // Exact as a power of two, and so that products of 32-bit floats stay numbers.
+            let unit = power_of_two_near(1.0 / farthest);
+            self.coarse.multiply(&self.polygons, &Side { unit, ..side });
         }
+        if !fine.is_empty() {
+            self.polygons.set(self.loops, &fine);
+            self.fine.multiply(&self.polygons, &side);
+        }
+    }
+
+    /// Adds the sums to values, in turns.
+    pub fn add_to(&self, values: &mut [f64]) {
+        self.coarse.add_to(values);
+        self.fine.add_to(values);
     }
 }
 
-impl Row {
-    fn set_loops(&mut self, loops: &[&Loop]) {
-        self.points.clear();
-        self.ends.clear();
-        for one in loops {
-            self.points.extend(one.points.last());
-            self.points.extend(&one.points);
-            self.ends.push(self.points.len());
-        }
-    }
+/// A bound of what 32-bit floats add to an edge's angle, in units of ε = 2⁻²⁴ turns, where all distances are up to `x` times
+/// the gap g between queries and loop along u.
+///
+/// With lengths up to D = x g, positions about the middle of the block are known to ε D, so a·u to 3 ε D, s_a = |a| + a·u to
+/// 3 ε x + 5 ε of itself and ζ̄_a ζ_b to 4 ε |ζ_a||ζ_b| in each part. With ρ = |ζ_a||ζ_b| / s_a s_b ≤ (D − g)/(D + g) the argument
+/// turns by up to ρ/(1 − ρ²) ≤ x/4 for each relative change of s, and by 1/(1 − ρ) ≤ x/2 for each of ζ̄_a ζ_b. The sum of all
+/// that is ε (1.5 x² + 6 x + 1), and a product of complex numbers turns by up to 3 ε more.
+fn rounding(x: f64) -> f64 {
+    (0.25 * x + 1.0) * x + 1.0
+}
 
-    #[inline(always)]
-    fn set_beside(&mut self, side: usize, points: &[Vec3], axis: usize, query: f64, unit: f64) {
-        let beside = &mut self.beside[side];
-        beside.clear();
-        beside.extend(points.iter().map(|p| unit * (p[axis] - query)));
-    }
+fn power_of_two_near(x: f64) -> f64 {
+    libm::exp2(libm::floor(libm::log2(x)))
+}
 
-    #[inline(always)]
-    fn set_edges(&mut self, sign: f64) {
-        let [v, w] = self.beside.each_ref().map(|b| &b[..]);
-        let count = v.len();
-        for part in [&mut self.squared, &mut self.real, &mut self.imaginary] {
-            part.resize(count, 0.0);
-        }
-        self.squared[0] = v[0] * v[0] + w[0] * w[0];
-        let (av, aw, bv, bw) = (&v[..count - 1], &w[..count - 1], &v[1..], &w[1..]);
-        let parts = self.squared[1..].iter_mut().zip(&mut self.real[1..]).zip(&mut self.imaginary[1..]);
-        for (k, ((squared, real), imaginary)) in parts.enumerate() {
-            *squared = bv[k] * bv[k] + bw[k] * bw[k];
-            *real = av[k] * bv[k] + aw[k] * bw[k];
-            *imaginary = sign * (av[k] * bw[k] - aw[k] * bv[k]);
-        }
-    }
-
-    /// Multiplies by the factors of all edges at up to `N` quads of queries of the row from one on; gives how many that is.
-    #[inline(always)]
-    fn multiply<Q: Floats<Number = f64>, const N: usize, const MAY_TURN: bool>(
-        &self,
-        start: usize,
-        product: &mut [&mut [f64]; 3],
-        stride: usize,
-    ) -> usize {
-        let queries = &self.queries[start..];
-        let last = queries.len().min(N * LANES) - 1;
-        let place = |i: usize| (start + i.min(last)) * stride;
-        let quads = |at: &dyn Fn(usize) -> f64| -> [Q; N] {
-            std::array::from_fn(|n| {
-                Q::load(&std::array::from_fn::<f64, LANES, _>(|lane| at(n * LANES + lane)))
-            })
-        };
-        let q = quads(&|i| queries[i.min(last)]);
-        let [mut x, mut y, mut wraps] = product.each_ref().map(|part| quads(&|i| part[place(i)]));
-        let count = self.along.len();
-        assert!(self.ends.last() == Some(&count));
-        let (along, squared) = (&self.along[..count], &self.squared[..count]);
-        let (constants, turns) = (&self.real[..count], &self.imaginary[..count]);
-        let s = |k: usize, q: Q| {
-            let along = Q::splat(along[k]) - q;
-            along + (along * along + Q::splat(squared[k])).sqrt()
-        };
-        let quarter = Q::splat(0.25);
-        let mut start = 0;
-        for end in &self.ends {
-            let mut from = q.map(|q| s(start, q));
-            for k in start + 1..*end {
-                let (constant, turn) = (Q::splat(constants[k]), Q::splat(turns[k]));
-                for n in 0..N {
-                    let to = s(k, q[n]);
-                    let factor = from[n] * to + constant;
-                    from[n] = to;
-                    let was = y[n].with_signs_on(quarter);
-                    let (re, im) = (x[n], y[n]);
-                    x[n] = re * factor - im * turn;
-                    y[n] = re * turn + im * factor;
-                    if !MAY_TURN {
-                        continue;
-                    }
-                    // By less than a quarter of a turn: out of the upper half-plane into the lower one, or back.
-                    let passed = was - y[n].with_signs_on(quarter);
-                    wraps[n] = wraps[n] + (passed + turn.with_signs_on(passed.abs()));
-                }
-                if k % EDGES_PER_SCALE == 0 || k == *end - 1 {
-                    for n in 0..N {
-                        let scale = (x[n].abs() + y[n].abs()).reciprocal_power_of_two();
-                        (x[n], y[n]) = (x[n] * scale, y[n] * scale);
-                    }
-                }
-            }
-            start = *end;
-        }
-        for (part, result) in product.iter_mut().zip([x, y, wraps]) {
-            for n in 0..N {
-                let mut values = [0.0; LANES];
-                result[n].store(&mut values);
-                (0..LANES)
-                    .filter(|lane| n * LANES + lane <= last)
-                    .for_each(|lane| part[place(n * LANES + lane)] = values[lane]);
-            }
-        }
-        N * LANES
-    }
+/// The gap between a block and a box in a direction from the block.
+fn gap(block: &Aabb, bounds: &Aabb, (axis, sign): (usize, f64)) -> f64 {
+    if sign > 0.0 { bounds.min[axis] - block.max[axis] } else { block.min[axis] - bounds.max[axis] }
 }

@@ -1,6 +1,7 @@
 //! Loops summed at the samples of a block themselves: from beside where a part of the block is apart from the loop, with
 //! exact predicates where it is not.
-use super::curtains::{Grid, Products, Region, all, away, box_of, largest};
+use super::BoundaryField;
+use super::curtains::{Grid, Region, Sums, all, away, box_of, largest};
 use super::loops::Loop;
 use crate::math::{Aabb, Vec3};
 use crate::winding::closure::crossings_of_caps;
@@ -10,42 +11,45 @@ use std::ops::Range;
 /// Axes with up to this many samples are not divided in the box of a loop.
 const FEW_INSIDE: usize = 2;
 
-/// The field of loops at the samples of a grid, x fastest; `caps` are all of the closure's, `unit` as for [`Products`].
-pub fn sum_directly(caps: &[[Vec3; 3]], unit: f64, grid: &Grid, loops: &[&Loop]) -> Vec<f64> {
-    let everywhere = all(grid);
-    let mut products = Products::of(grid, unit);
-    let mut values = vec![0.0; grid.iter().map(Vec::len).product()];
-    let bounds = box_of(grid, &everywhere);
-    let (few, mut rest) = within_half_a_turn(&bounds, loops);
-    let (apart, others) = by_direction(&bounds, &few);
-    for (direction, loops) in apart {
-        products.multiply(grid, &everywhere, &loops, direction, false);
-    }
-    rest.extend(others);
-    Sum { caps, grid, products: &mut products, values: &mut values }.add(&everywhere, &rest);
-    products.add_to(&mut values);
-    values
+/// Loops summed at the samples of a grid.
+pub struct Direct<'a> {
+    pub field: &'a BoundaryField,
+    /// All of the closure's.
+    pub caps: &'a [[Vec3; 3]],
+    pub grid: &'a Grid,
+    pub sums: Sums<'a>,
+    /// What is not in the sums.
+    pub values: Vec<f64>,
 }
 
-struct Sum<'a> {
-    caps: &'a [[Vec3; 3]],
-    grid: &'a Grid,
-    products: &'a mut Products,
-    values: &'a mut [f64],
-}
-
-impl Sum<'_> {
-    /// Adds the field of loops at the samples of a region: to the products where they are apart, else to the values.
-    fn add(&mut self, region: &Region, loops: &[&Loop]) {
-        let (apart, others) = by_direction(&box_of(self.grid, region), loops);
+impl Direct<'_> {
+    /// The field of loops at the samples, x fastest.
+    pub fn sum(mut self, loops: &[u32]) -> Vec<f64> {
+        let everywhere = all(self.grid);
+        let bounds = box_of(self.grid, &everywhere);
+        let (few, rest) = within_half_a_turn(&self.field.loops, &bounds, loops);
+        let (apart, others) = by_direction(&self.field.loops, &bounds, &few);
         for (direction, loops) in apart {
-            self.products.multiply(self.grid, region, &loops, direction, true);
+            self.sums.add(&everywhere, &loops, direction, false);
+        }
+        let mut rest = [rest, others].concat();
+        rest.sort_unstable();
+        self.add(&everywhere, &rest);
+        self.sums.add_to(&mut self.values);
+        self.values
+    }
+
+    /// Adds the field of loops at the samples of a region: to the sums where they are apart, else to the values.
+    fn add(&mut self, region: &Region, loops: &[u32]) {
+        let (apart, others) = by_direction(&self.field.loops, &box_of(self.grid, region), loops);
+        for (direction, loops) in apart {
+            self.sums.add(region, &loops, direction, true);
         }
         if others.is_empty() {
         } else if region.iter().any(|range| range.len() > FEW_INSIDE) {
             each_part(region, FEW_INSIDE, |part| self.add(&part, &others));
         } else {
-            others.iter().for_each(|one| self.add_carefully(region, one));
+            others.iter().for_each(|l| self.add_carefully(region, &self.field.loops[*l as usize]));
         }
     }
 
@@ -68,10 +72,11 @@ impl Sum<'_> {
     }
 }
 
-/// Loops whose winding numbers add up to less than a half all through a block; and the others.
-pub fn within_half_a_turn<'a>(block: &Aabb, loops: &[&'a Loop]) -> (Vec<&'a Loop>, Vec<&'a Loop>) {
+/// Those of some loops whose winding numbers add up to less than a half all through a block; and the others.
+pub fn within_half_a_turn(loops: &[Loop], block: &Aabb, some: &[u32]) -> (Vec<u32>, Vec<u32>) {
     let mut turns = 0.0;
-    loops.iter().partition(|one| {
+    some.iter().partition(|l| {
+        let one = &loops[**l as usize];
         let most = largest(one.area, &one.bounds, block);
         let fits = turns + most < 0.49;
         turns += if fits { most } else { 0.0 };
@@ -79,17 +84,17 @@ pub fn within_half_a_turn<'a>(block: &Aabb, loops: &[&'a Loop]) -> (Vec<&'a Loop
     })
 }
 
-pub type ByDirection<'a> = Vec<((usize, f64), Vec<&'a Loop>)>;
+pub type ByDirection = Vec<((usize, f64), Vec<u32>)>;
 
-/// Loops that are apart from a block, by the direction in which they lie; and the others.
-pub fn by_direction<'a>(block: &Aabb, loops: &[&'a Loop]) -> (ByDirection<'a>, Vec<&'a Loop>) {
+/// Those of some loops that are apart from a block, by the direction in which they lie; and the others.
+pub fn by_direction(loops: &[Loop], block: &Aabb, some: &[u32]) -> (ByDirection, Vec<u32>) {
     let (mut apart, mut others): (ByDirection, _) = (Vec::new(), Vec::new());
-    for &one in loops {
-        match away(block, &one.bounds) {
-            None => others.push(one),
+    for &l in some {
+        match away(block, &loops[l as usize].bounds) {
+            None => others.push(l),
             Some(direction) => match apart.iter_mut().find(|(d, _)| *d == direction) {
-                Some((_, loops)) => loops.push(one),
-                None => apart.push((direction, vec![one])),
+                Some((_, loops)) => loops.push(l),
+                None => apart.push((direction, vec![l])),
             },
         }
     }

@@ -7,11 +7,12 @@ mod curtains;
 mod direct;
 mod interpolant;
 mod loops;
+mod product;
 
 use crate::data::Lattice;
 use crate::math::{Aabb, Floats, Nodes, Vec3};
-use curtains::{Grid, Products, Region, all, away, box_of, largest};
-use direct::{by_direction, each_part, sum_directly, within_half_a_turn};
+use curtains::{Grid, Region, Sums, all, away, box_of, largest};
+use direct::{Direct, by_direction, each_part, within_half_a_turn};
 use interpolant::{Interpolant, interpolation_error};
 use loops::{Loop, loops};
 use wide::f64x4;
@@ -29,12 +30,17 @@ const FEW: usize = 4;
 /// arctangent.
 const INTERPOLATION_COST: f64 = 0.15;
 const ANGLE_COST: f64 = 10.0;
+/// What the chords of a loop cost, in edges: most of them are left out.
+const EDGES_OF_CHORD: f64 = 0.7;
 
 /// The loops of a closure.
 #[derive(Clone, Debug, Default)]
 pub struct BoundaryField {
     loops: Vec<Loop>,
+    /// Of all caps.
     area: f64,
+    /// Boundary edges.
+    edges: usize,
     /// A power of two that brings lengths to about 1.
     unit: f64,
 }
@@ -44,7 +50,9 @@ impl BoundaryField {
         let loops = loops(cycles, caps);
         let size = loops.iter().map(|l| l.bounds).fold(Aabb::EMPTY, Aabb::union).size().max_element();
         let unit = f64x4::splat(size).reciprocal_power_of_two().to_array()[0];
-        BoundaryField { area: loops.iter().map(|l| l.area).sum(), loops, unit }
+        let (area, edges) =
+            loops.iter().fold((0.0, 0), |(area, edges), l| (area + l.area, edges + l.edges()));
+        BoundaryField { area, edges, loops, unit }
     }
 
     /// Bytes held.
@@ -69,11 +77,14 @@ impl BoundaryField {
             caps,
             values: vec![0.0; counts.iter().product()],
             interpolation_per_area: need.interpolation_error() / self.area,
+            rounding_per_edge: need.rounding_error() / self.edges as f64,
             need,
             grid,
             counts,
         };
-        block.divide(all(&block.grid), &(0..self.loops.len() as u32).collect::<Vec<_>>(), None);
+        let counts = |l: &u32| !self.loops[*l as usize].is_flat;
+        let loops: Vec<u32> = (0..self.loops.len() as u32).filter(counts).collect();
+        block.divide(all(&block.grid), &loops, None);
         block.values
     }
 }
@@ -91,7 +102,15 @@ impl Need {
     fn interpolation_error(self) -> f64 {
         match self {
             Need::Value { tolerance } => MARGIN * tolerance.max(EXACT),
-            Need::Side { error, .. } => error - 1e-9,
+            Need::Side { error, .. } => error - self.rounding_error() - 1e-9,
+        }
+    }
+
+    /// What 32-bit floats may add.
+    fn rounding_error(self) -> f64 {
+        match self {
+            Need::Value { tolerance } => MARGIN * tolerance,
+            Need::Side { error, .. } => 0.25 * error,
         }
     }
 
@@ -122,6 +141,8 @@ struct Block<'a> {
     need: Need,
     /// Bound of the error of interpolation allowed for each unit of a loop's area.
     interpolation_per_area: f64,
+    /// Bound of what 32-bit floats may add for each edge, in turns.
+    rounding_per_edge: f64,
 }
 
 /// What is done with the loops of a region.
@@ -140,7 +161,7 @@ impl Block<'_> {
         let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
         let samples = counts.iter().product::<usize>() as f64;
         let edges = |loops: &[u32]| -> f64 {
-            loops.iter().map(|l| self.field.loops[*l as usize].points.len() as f64).sum()
+            loops.iter().map(|l| EDGES_OF_CHORD + self.field.loops[*l as usize].edges() as f64).sum()
         };
         let bounds = box_of(&self.grid, &region);
         let most = |l: &u32| {
@@ -228,16 +249,19 @@ impl Block<'_> {
         let mut values = from.map_or_else(|| vec![0.0; len], |f| f.at(&points));
         let region = all(&points);
         let bounds = box_of(grid, &all(grid));
-        let mut products = Products::of(&points, self.field.unit);
-        let far: Vec<&Loop> = plan.far.iter().map(|l| &self.field.loops[*l as usize]).collect();
-        let (few, rest) = within_half_a_turn(&bounds, &far);
-        for (loops, may_turn) in [(few, false), (rest, true)] {
-            for (direction, loops) in by_direction(&bounds, &loops).0 {
-                products.multiply(&points, &region, &loops, direction, may_turn);
+        let mut sums = self.sums(&points);
+        let (few, rest) = within_half_a_turn(&self.field.loops, &bounds, &plan.far);
+        for (some, may_turn) in [(few, false), (rest, true)] {
+            for (direction, some) in by_direction(&self.field.loops, &bounds, &some).0 {
+                sums.add(&region, &some, direction, may_turn);
             }
         }
-        products.add_to(&mut values);
+        sums.add_to(&mut values);
         Some(Interpolant { nodes, values })
+    }
+
+    fn sums<'b>(&'b self, grid: &'b Grid) -> Sums<'b> {
+        Sums::new(&self.field.loops, grid, self.field.unit, self.rounding_per_edge)
     }
 
     fn add_interpolant(&mut self, region: &Region, grid: &Grid, interpolant: Option<&Interpolant>) {
@@ -259,8 +283,9 @@ impl Block<'_> {
         if loops.is_empty() {
             return;
         }
-        let loops: Vec<&Loop> = loops.iter().map(|l| &self.field.loops[*l as usize]).collect();
-        let values = sum_directly(self.caps, self.field.unit, grid, &loops);
+        let values = vec![0.0; grid.iter().map(Vec::len).product()];
+        let direct = Direct { field: self.field, caps: self.caps, grid, sums: self.sums(grid), values };
+        let values = direct.sum(loops);
         self.add(region, &values);
     }
 }
