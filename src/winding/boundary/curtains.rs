@@ -8,6 +8,7 @@
 //! of queries parallel to u, ζ̄_a ζ_b is constant: a square root and a complex product are left for each edge and query.
 //!
 //! Arguments are summed as one product, with the number of times that it went around.
+use super::caps::Doubt;
 use super::loops::{Loop, Polygons};
 use super::product::{Product, Side};
 use crate::math::{Aabb, Vec3};
@@ -102,6 +103,19 @@ impl<'a> Sums<'a> {
             self.polygons.set(self.loops, &fine);
             self.fine.multiply(&self.polygons, &side);
         }
+    }
+
+    /// Adds what is seen of single caps, those with these numbers of all, from a region amid them; where that is in doubt it is
+    /// left out, and listed.
+    pub fn add_caps(
+        &mut self,
+        region: &Region,
+        caps: &[[Vec3; 3]],
+        numbers: impl Iterator<Item = usize>,
+        doubts: &mut Vec<Doubt>,
+    ) {
+        let caps = numbers.map(|number| (number, caps[number]));
+        super::caps::multiply(&mut self.fine, self.grid, region, caps, self.unit, doubts);
     }
 
     /// Adds the sums to values, in turns.

@@ -1,6 +1,7 @@
 //! Loops summed at the samples of a block themselves: from beside where a part of the block is apart from the loop, with
 //! exact predicates where it is not.
 use super::BoundaryField;
+use super::caps::Doubt;
 use super::curtains::{Grid, Region, Sums, all, away, box_of, largest};
 use super::loops::Loop;
 use crate::math::{Aabb, Vec3};
@@ -9,20 +10,33 @@ use crate::winding::curtain::{LANES, fractions_of};
 use std::ops::Range;
 
 /// Axes with up to this many samples are not divided in the box of a loop.
-const FEW_INSIDE: usize = 2;
+const FEW_INSIDE: usize = 4;
+/// Loops of up to this many caps are summed by their caps all through a block amid them.
+const FEW_CAPS: usize = 4;
 
 /// Loops summed at the samples of a grid.
 pub struct Direct<'a> {
-    pub field: &'a BoundaryField,
+    field: &'a BoundaryField,
     /// All of the closure's.
-    pub caps: &'a [[Vec3; 3]],
-    pub grid: &'a Grid,
-    pub sums: Sums<'a>,
+    caps: &'a [[Vec3; 3]],
+    grid: &'a Grid,
+    sums: Sums<'a>,
     /// What is not in the sums.
-    pub values: Vec<f64>,
+    values: Vec<f64>,
+    doubts: Vec<Doubt>,
 }
 
-impl Direct<'_> {
+impl<'a> Direct<'a> {
+    pub fn new(
+        field: &'a BoundaryField,
+        caps: &'a [[Vec3; 3]],
+        grid: &'a Grid,
+        sums: Sums<'a>,
+    ) -> Direct<'a> {
+        let values = vec![0.0; grid.iter().map(Vec::len).product()];
+        Direct { field, caps, grid, sums, values, doubts: Vec::new() }
+    }
+
     /// The field of loops at the samples, x fastest.
     pub fn sum(mut self, loops: &[u32]) -> Vec<f64> {
         let everywhere = all(self.grid);
@@ -35,6 +49,7 @@ impl Direct<'_> {
         let mut rest = [rest, others].concat();
         rest.sort_unstable();
         self.add(&everywhere, &rest);
+        self.add_doubts();
         self.sums.add_to(&mut self.values);
         self.values
     }
@@ -45,28 +60,34 @@ impl Direct<'_> {
         for (direction, loops) in apart {
             self.sums.add(region, &loops, direction, true);
         }
-        if others.is_empty() {
-        } else if region.iter().any(|range| range.len() > FEW_INSIDE) {
-            each_part(region, FEW_INSIDE, |part| self.add(&part, &others));
+        let (few, many) = others.iter().partition(|l| self.field.loops[**l as usize].caps.len() <= FEW_CAPS);
+        let (mut few, many): (Vec<u32>, Vec<u32>) = (few, many);
+        if region.iter().any(|range| range.len() > FEW_INSIDE) {
+            if !many.is_empty() {
+                each_part(region, FEW_INSIDE, |part| self.add(&part, &many));
+            }
         } else {
-            others.iter().for_each(|l| self.add_carefully(region, &self.field.loops[*l as usize]));
+            few.extend(many);
         }
+        let numbers = few.iter().flat_map(|l| self.field.loops[*l as usize].caps.clone());
+        self.sums.add_caps(region, self.caps, numbers, &mut self.doubts);
     }
 
-    fn add_carefully(&mut self, region: &Region, one: &Loop) {
-        let places: Vec<[usize; 3]> = region[2]
-            .clone()
-            .flat_map(|k| region[1].clone().map(move |j| (j, k)))
-            .flat_map(|(j, k)| region[0].clone().map(move |i| [i, j, k]))
-            .collect();
-        for four in places.chunks(LANES) {
-            let point = |place: [usize; 3]| Vec3::from_array(std::array::from_fn(|a| self.grid[a][place[a]]));
-            let queries = std::array::from_fn(|k| point(four[k.min(four.len() - 1)]));
-            let fractions = fractions_of(&one.points, &queries);
-            for (([i, j, k], q), fraction) in four.iter().zip(queries).zip(fractions) {
-                let crossings = crossings_of_caps(&self.caps[one.caps.clone()], q);
-                let place = (k * self.grid[1].len() + j) * self.grid[0].len() + i;
-                self.values[place] += fraction - f64::from(crossings);
+    /// Adds what was in doubt: cap and crossings are decided together, by exact predicates.
+    fn add_doubts(&mut self) {
+        self.doubts.sort_unstable_by_key(|doubt| doubt.cap);
+        for doubts in self.doubts.chunk_by(|a, b| a.cap == b.cap) {
+            let cap = self.caps[doubts[0].cap];
+            for four in doubts.chunks(LANES) {
+                let queries = std::array::from_fn(|k| {
+                    let sample = four[k.min(four.len() - 1)].sample;
+                    Vec3::from_array(std::array::from_fn(|a| self.grid[a][sample[a]]))
+                });
+                for ((doubt, q), fraction) in four.iter().zip(queries).zip(fractions_of(&cap, &queries)) {
+                    let [i, j, k] = doubt.sample;
+                    let place = (k * self.grid[1].len() + j) * self.grid[0].len() + i;
+                    self.values[place] += fraction - f64::from(crossings_of_caps(&[cap], q));
+                }
             }
         }
     }

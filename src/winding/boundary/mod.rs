@@ -3,6 +3,7 @@
 //! Away from its loops the field is smooth: over a block of samples it is summed at a few Chebyshev nodes and interpolated,
 //! with a bound of the error from the loop's area and distance; what is too near for that is passed on to the parts of the
 //! block, at last summed at the samples themselves. So most of a lattice costs some multiplications for each sample.
+mod caps;
 mod curtains;
 mod direct;
 mod interpolant;
@@ -283,9 +284,7 @@ impl Block<'_> {
         if loops.is_empty() {
             return;
         }
-        let values = vec![0.0; grid.iter().map(Vec::len).product()];
-        let direct = Direct { field: self.field, caps: self.caps, grid, sums: self.sums(grid), values };
-        let values = direct.sum(loops);
+        let values = Direct::new(self.field, self.caps, grid, self.sums(grid)).sum(loops);
         self.add(region, &values);
     }
 }

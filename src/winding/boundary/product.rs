@@ -6,10 +6,11 @@ use std::f64::consts::TAU;
 use std::ops::{Add, Mul, Sub};
 use wide::f64x4;
 
-/// Whether two vectors of queries at once pay for their code.
-const SEVERAL: bool = cfg!(not(target_arch = "wasm32"));
-/// Most queries taken together.
-const MOST: usize = 16;
+/// Vectors of queries that are treated at once, so that the processor need not wait for one; more than one do not pay for
+/// their code everywhere.
+const SEVERAL: usize = if cfg!(target_arch = "wasm32") { 1 } else { 2 };
+/// Most queries in a vector.
+const MOST: usize = 8;
 
 /// 32-bit or 64-bit floats.
 pub trait Number: Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
@@ -26,7 +27,7 @@ pub struct Product<T> {
     counts: [usize; 3],
     /// Real and imaginary parts, and how often the product went around; empty if nothing was multiplied.
     parts: [Vec<T>; 3],
-    row: Row<T>,
+    rows: Rows<T>,
 }
 
 /// From where edges are seen: a region of a grid, from which they lie in a direction, the sign of an axis.
@@ -44,16 +45,20 @@ pub struct Side<'a> {
 
 impl<T: Number> Product<T> {
     pub fn of(counts: [usize; 3]) -> Product<T> {
-        Product { counts, parts: Default::default(), row: Row::default() }
+        Product { counts, parts: Default::default(), rows: Rows::default() }
     }
 
     /// Multiplies by the factors of the edges of polygons.
     pub fn multiply(&mut self, polygons: &Polygons, side: &Side) {
+        self.begin();
+        T::row(&mut RowWork { product: self, polygons, side });
+    }
+
+    fn begin(&mut self) {
         let len = self.counts.iter().product();
         if self.parts[0].is_empty() {
             self.parts = [T::ONE, T::default(), T::default()].map(|value| vec![value; len]);
         }
-        T::row(&mut RowWork { product: self, polygons, side });
     }
 
     /// Adds the sums of the arguments, over 2π.
@@ -71,15 +76,84 @@ impl<T: Number> Product<T> {
     }
 }
 
-/// What is constant along a row, for each point of polygons, and for the edge that leads to it.
+/// Products at four queries.
+#[derive(Clone, Copy)]
+pub struct Four<F> {
+    real: F,
+    imaginary: F,
+    wraps: F,
+}
+
+impl<F: Floats<Number = f64>> Four<F> {
+    /// By factors that turn by less than half a turn.
+    #[inline(always)]
+    pub fn multiply(&mut self, real: F, imaginary: F) {
+        let quarter = F::splat(0.25);
+        let was = self.imaginary.with_signs_on(quarter);
+        let new_real = self.real * real - self.imaginary * imaginary;
+        let new_imaginary = self.real * imaginary + self.imaginary * real;
+        // Out of the upper half-plane into the lower one the long way, or back.
+        let passed = was - new_imaginary.with_signs_on(quarter);
+        self.wraps = self.wraps + (passed + imaginary.with_signs_on(passed.abs()));
+        let scale = (new_real.abs() + new_imaginary.abs()).reciprocal_power_of_two();
+        (self.real, self.imaginary) = (new_real * scale, new_imaginary * scale);
+    }
+}
+
+impl Product<f64> {
+    /// Products at up to four queries that follow each other along x from a place of the grid on.
+    #[inline(always)]
+    pub fn four<F: Floats<Number = f64>>(&mut self, [i, j, k]: [usize; 3], count: usize) -> Four<F> {
+        self.begin();
+        let target = Target { parts: &mut self.parts, stride: 1 };
+        let place = (k * self.counts[1] + j) * self.counts[0] + i;
+        let few = Few { row: 0, start: 0, count, place };
+        Four { real: target.load(0, &few), imaginary: target.load(1, &few), wraps: target.load(2, &few) }
+    }
+
+    /// Puts them back.
+    #[inline(always)]
+    pub fn set_four<F: Floats<Number = f64>>(&mut self, [i, j, k]: [usize; 3], count: usize, four: Four<F>) {
+        let mut target = Target { parts: &mut self.parts, stride: 1 };
+        let place = (k * self.counts[1] + j) * self.counts[0] + i;
+        let few = Few { row: 0, start: 0, count, place };
+        target.store(0, &few, four.real);
+        target.store(1, &few, four.imaginary);
+        target.store(2, &few, four.wraps);
+    }
+}
+
+/// Edges of polygons seen from rows of queries, for each point.
 #[derive(Default)]
-struct Row<T> {
+struct Rows<T> {
     queries: Vec<T>,
     along: Vec<T>,
+    /// The other two coordinates of the points.
+    across: [Vec<f64>; 2],
+    /// The second of these from the rows that are treated together, and the first from the current one.
     beside: [Vec<T>; 2],
+    edges: [Edges<T>; SEVERAL],
+}
+
+/// What is constant along a row: of each point the square of its distance from the row's line, and ζ̄_a ζ_b of the edge that
+/// leads to it.
+#[derive(Default)]
+struct Edges<T> {
     squared: Vec<T>,
     real: Vec<T>,
     imaginary: Vec<T>,
+}
+
+/// Queries of a row that are treated together.
+#[derive(Clone, Copy, Default)]
+struct Few {
+    /// Whose edges they see.
+    row: usize,
+    /// The first one and how many, in the row.
+    start: usize,
+    count: usize,
+    /// The place of the row's first query in the product.
+    place: usize,
 }
 
 /// The rows of a multiplication.
@@ -149,107 +223,157 @@ impl<T: Number> RowWork<'_, T> {
         let [v, w] = [(u + 1) % 3, (u + 2) % 3];
         let counts = self.product.counts;
         let strides = [1, counts[0], counts[0] * counts[1]];
-        let Product { row, parts, .. } = &mut *self.product;
-        let points = &self.polygons.points;
-        row.along.clear();
-        row.along.extend(points.iter().map(|p| T::of(sign * unit * (p[u] - center[u]))));
-        row.queries.clear();
-        row.queries.extend(grid[u][region[u].clone()].iter().map(|q| T::of(sign * unit * (q - center[u]))));
+        let Product { rows, parts, .. } = &mut *self.product;
+        let mut target = Target { parts, stride: strides[u] };
+        let queries = grid[u][region[u].clone()].iter().map(|q| T::of(sign * unit * (q - center[u])));
+        rows.set_points(&self.polygons.points, (u, sign * unit, center[u]), queries);
+        let ends = &self.polygons.ends[..];
+        let len = rows.queries.len();
         for k in region[w].clone() {
-            row.set_beside(1, points, w, grid[w][k], unit);
-            for j in region[v].clone() {
-                row.set_beside(0, points, v, grid[v][j], unit);
-                row.set_edges(T::of(sign));
-                let first = j * strides[v] + k * strides[w] + region[u].start * strides[u];
-                let mut product = parts.each_mut().map(|part| &mut part[first..]);
+            rows.set_beside(1, grid[w][k], unit);
+            for j in region[v].clone().step_by(SEVERAL) {
+                let together = SEVERAL.min(region[v].end - j);
+                let mut few = [Few::default(); SEVERAL];
+                for (row, few) in few.iter_mut().enumerate().take(together) {
+                    rows.set_beside(0, grid[v][j + row], unit);
+                    rows.set_edges(row, T::of(sign));
+                    few.row = row;
+                    few.place = (j + row) * strides[v] + k * strides[w] + region[u].start * strides[u];
+                }
                 let mut start = 0;
-                let ends = &self.polygons.ends;
-                while start < row.queries.len() {
-                    let rest = row.queries.len() - start;
-                    let stride = strides[u];
-                    let is_wide = F::COUNT > G::COUNT;
-                    start += match (rest > F::COUNT + if is_wide { G::COUNT } else { 0 }, may_turn) {
-                        (true, true) if SEVERAL => {
-                            row.multiply::<F, 2, true>(ends, start, &mut product, stride)
-                        }
-                        (true, false) if SEVERAL => {
-                            row.multiply::<F, 2, false>(ends, start, &mut product, stride)
-                        }
-                        (false, true) if is_wide && rest <= G::COUNT => {
-                            row.multiply::<G, 1, true>(ends, start, &mut product, stride)
-                        }
-                        (false, false) if is_wide && rest <= G::COUNT => {
-                            row.multiply::<G, 1, false>(ends, start, &mut product, stride)
-                        }
-                        (_, true) => row.multiply::<F, 1, true>(ends, start, &mut product, stride),
-                        (_, false) => row.multiply::<F, 1, false>(ends, start, &mut product, stride),
-                    };
+                while start < len {
+                    let is_short = F::COUNT > G::COUNT && len - start <= G::COUNT;
+                    let width = if is_short { G::COUNT } else { F::COUNT };
+                    let mut count = together;
+                    few.iter_mut().for_each(|s| (s.start, s.count) = (start, width.min(len - start)));
+                    if SEVERAL == 2 && together == 1 && !is_short && start + width < len {
+                        count = 2;
+                        few[1] =
+                            Few { start: start + width, count: width.min(len - start - width), ..few[0] };
+                    }
+                    match (is_short, count == SEVERAL, may_turn) {
+                        (true, true, true) => rows.multiply::<G, SEVERAL, true>(ends, few, &mut target),
+                        (true, true, false) => rows.multiply::<G, SEVERAL, false>(ends, few, &mut target),
+                        (true, false, true) => rows.multiply::<G, 1, true>(ends, [few[0]], &mut target),
+                        (true, false, false) => rows.multiply::<G, 1, false>(ends, [few[0]], &mut target),
+                        (false, true, true) => rows.multiply::<F, SEVERAL, true>(ends, few, &mut target),
+                        (false, true, false) => rows.multiply::<F, SEVERAL, false>(ends, few, &mut target),
+                        (false, false, true) => rows.multiply::<F, 1, true>(ends, [few[0]], &mut target),
+                        (false, false, false) => rows.multiply::<F, 1, false>(ends, [few[0]], &mut target),
+                    }
+                    start += width * if together == 1 { count } else { 1 };
                 }
             }
         }
     }
 }
 
-impl<T: Number> Row<T> {
+/// Where products are.
+struct Target<'a, T> {
+    parts: &'a mut [Vec<T>; 3],
+    /// Between the queries of a row.
+    stride: usize,
+}
+
+impl<T: Number> Target<'_, T> {
     #[inline(always)]
-    fn set_beside(&mut self, side: usize, points: &[Vec3], axis: usize, query: f64, unit: f64) {
-        let beside = &mut self.beside[side];
-        beside.clear();
-        beside.extend(points.iter().map(|p| T::of(unit * (p[axis] - query))));
+    fn load<F: Floats<Number = T>>(&self, part: usize, few: &Few) -> F {
+        let mut lanes = [T::default(); MOST];
+        let from = &self.parts[part];
+        for i in 0..F::COUNT {
+            lanes[i] = from[few.place + (few.start + i.min(few.count - 1)) * self.stride];
+        }
+        F::load(&lanes)
     }
 
     #[inline(always)]
-    fn set_edges(&mut self, sign: T) {
+    fn store<F: Floats<Number = T>>(&mut self, part: usize, few: &Few, values: F) {
+        let mut lanes = [T::default(); MOST];
+        values.store(&mut lanes);
+        let to = &mut self.parts[part];
+        for i in 0..few.count {
+            to[few.place + (few.start + i) * self.stride] = lanes[i];
+        }
+    }
+}
+
+impl<T: Number> Rows<T> {
+    #[inline(always)]
+    fn set_points(
+        &mut self,
+        points: &[Vec3],
+        (u, scale, center): (usize, f64, f64),
+        queries: impl Iterator<Item = T>,
+    ) {
+        self.queries.clear();
+        self.queries.extend(queries);
+        self.along.clear();
+        self.along.extend(points.iter().map(|p| T::of(scale * (p[u] - center))));
+        for (side, across) in self.across.iter_mut().enumerate() {
+            across.clear();
+            across.extend(points.iter().map(|p| p[(u + 1 + side) % 3]));
+        }
+        let parts = self.edges.iter_mut().flat_map(|e| [&mut e.squared, &mut e.real, &mut e.imaginary]);
+        parts.chain(&mut self.beside).for_each(|part| part.resize(points.len(), T::default()));
+    }
+
+    #[inline(always)]
+    fn set_beside(&mut self, side: usize, query: f64, unit: f64) {
+        let each = self.beside[side].iter_mut().zip(&self.across[side]);
+        each.for_each(|(beside, p)| *beside = T::of(unit * (p - query)));
+    }
+
+    #[inline(always)]
+    fn set_edges(&mut self, row: usize, sign: T) {
         let [v, w] = self.beside.each_ref().map(|b| &b[..]);
-        let count = v.len();
-        for part in [&mut self.squared, &mut self.real, &mut self.imaginary] {
-            part.resize(count, T::default());
-        }
-        self.squared[0] = v[0] * v[0] + w[0] * w[0];
-        let (av, aw, bv, bw) = (&v[..count - 1], &w[..count - 1], &v[1..], &w[1..]);
-        let parts = self.squared[1..].iter_mut().zip(&mut self.real[1..]).zip(&mut self.imaginary[1..]);
-        for (k, ((squared, real), imaginary)) in parts.enumerate() {
-            *squared = bv[k] * bv[k] + bw[k] * bw[k];
-            *real = av[k] * bv[k] + aw[k] * bw[k];
-            *imaginary = sign * (av[k] * bw[k] - aw[k] * bv[k]);
+        let Edges { squared, real, imaginary } = &mut self.edges[row];
+        let last = v.len() - 1;
+        squared[0] = v[0] * v[0] + w[0] * w[0];
+        let (av, aw, bv, bw) = (&v[..last], &w[..last], &v[1..][..last], &w[1..][..last]);
+        let (squared, real, imaginary) =
+            (&mut squared[1..][..last], &mut real[1..][..last], &mut imaginary[1..][..last]);
+        for k in 0..last {
+            squared[k] = bv[k] * bv[k] + bw[k] * bw[k];
+            real[k] = av[k] * bv[k] + aw[k] * bw[k];
+            imaginary[k] = sign * (av[k] * bw[k] - aw[k] * bv[k]);
         }
     }
 
-    /// Multiplies by the factors of all edges at up to `N` vectors of queries of the row from one on; gives how many that is.
+    /// Multiplies by the factors of all edges at some queries.
     #[inline(always)]
     fn multiply<F: Floats<Number = T>, const N: usize, const MAY_TURN: bool>(
         &self,
         ends: &[usize],
-        start: usize,
-        product: &mut [&mut [T]; 3],
-        stride: usize,
-    ) -> usize {
-        let queries = &self.queries[start..];
-        let last = queries.len().min(N * F::COUNT) - 1;
-        let place = |i: usize| (start + i.min(last)) * stride;
-        let mut lanes = [T::default(); MOST];
-        (0..N * F::COUNT).for_each(|i| lanes[i] = queries[i.min(last)]);
-        let q = vectors::<F, N>(&lanes);
-        let [mut x, mut y, mut wraps] = [[F::splat(T::default()); N]; 3];
-        for (part, vector) in product.iter().zip([&mut x, &mut y, &mut wraps]) {
-            (0..N * F::COUNT).for_each(|i| lanes[i] = part[place(i)]);
-            *vector = vectors::<F, N>(&lanes);
-        }
+        few: [Few; N],
+        target: &mut Target<T>,
+    ) {
+        let zero = F::splat(T::default());
+        let [mut q, mut x, mut y, mut wraps, mut from] = [[zero; N]; 5];
         let count = self.along.len();
+        let mut edges = [[&self.along[..count]; 3]; N];
+        for n in 0..N {
+            let mut lanes = [T::default(); MOST];
+            for i in 0..F::COUNT {
+                lanes[i] = self.queries[few[n].start + i.min(few[n].count - 1)];
+            }
+            q[n] = F::load(&lanes);
+            (x[n], y[n]) = (target.load(0, &few[n]), target.load(1, &few[n]));
+            wraps[n] = target.load(2, &few[n]);
+            let own = &self.edges[few[n].row];
+            edges[n] = [&own.squared[..count], &own.real[..count], &own.imaginary[..count]];
+        }
         assert!(ends.last() == Some(&count));
-        let (along, squared) = (&self.along[..count], &self.squared[..count]);
-        let (constants, turns) = (&self.real[..count], &self.imaginary[..count]);
         let quarter = F::splat(T::of(0.25));
         let mut start = 0;
         for end in ends {
-            let mut from = q;
             for n in 0..N {
-                from[n] = reach(along[start], squared[start], q[n]);
+                from[n] = reach(self.along[start], edges[n][0][start], q[n]);
             }
             for k in start + 1..*end {
-                let (constant, turn) = (F::splat(constants[k]), F::splat(turns[k]));
                 for n in 0..N {
-                    let to = reach(along[k], squared[k], q[n]);
+                    let [squared, real, imaginary] = edges[n];
+                    let (constant, turn) = (F::splat(real[k]), F::splat(imaginary[k]));
+                    let to = reach(self.along[k], squared[k], q[n]);
                     let factor = from[n] * to + constant;
                     from[n] = to;
                     let was = y[n].with_signs_on(quarter);
@@ -272,23 +396,12 @@ impl<T: Number> Row<T> {
             }
             start = *end;
         }
-        for (part, result) in product.iter_mut().zip([x, y, wraps]) {
-            for n in 0..N {
-                result[n].store(&mut lanes[n * F::COUNT..]);
-            }
-            (0..last + 1).for_each(|i| part[place(i)] = lanes[i]);
+        for n in 0..N {
+            target.store(0, &few[n], x[n]);
+            target.store(1, &few[n], y[n]);
+            target.store(2, &few[n], wraps[n]);
         }
-        last + 1
     }
-}
-
-#[inline(always)]
-fn vectors<F: Floats, const N: usize>(lanes: &[F::Number]) -> [F; N] {
-    let mut vectors = [F::load(lanes); N];
-    for n in 1..N {
-        vectors[n] = F::load(&lanes[n * F::COUNT..]);
-    }
-    vectors
 }
 
 /// |a| + a·u.
