@@ -12,7 +12,7 @@ mod product;
 
 use crate::data::Lattice;
 use crate::math::{Aabb, Floats, Nodes, Vec3};
-use curtains::{Grid, Region, Sums, all, away, box_of, largest};
+use curtains::{Grid, Region, Sums, all, away, box_of};
 use direct::{Direct, by_direction, each_part, within_half_a_turn};
 use interpolant::{Interpolant, interpolation_error};
 use loops::{Loop, loops};
@@ -31,6 +31,10 @@ const FEW: usize = 4;
 /// arctangent.
 const INTERPOLATION_COST: f64 = 0.15;
 const ANGLE_COST: f64 = 10.0;
+/// What one size of block may take of the bound of the error that is left.
+const SHARE: f64 = 0.6;
+/// How often what is left of it is given to loops that need more than the others.
+const ROUNDS: usize = 3;
 /// What the chords of a loop cost, in edges: most of them are left out.
 const EDGES_OF_CHORD: f64 = 0.7;
 
@@ -38,8 +42,6 @@ const EDGES_OF_CHORD: f64 = 0.7;
 #[derive(Clone, Debug, Default)]
 pub struct BoundaryField {
     loops: Vec<Loop>,
-    /// Of all caps.
-    area: f64,
     /// Boundary edges.
     edges: usize,
     /// A power of two that brings lengths to about 1.
@@ -51,9 +53,12 @@ impl BoundaryField {
         let loops = loops(cycles, caps);
         let size = loops.iter().map(|l| l.bounds).fold(Aabb::EMPTY, Aabb::union).size().max_element();
         let unit = f64x4::splat(size).reciprocal_power_of_two().to_array()[0];
-        let (area, edges) =
-            loops.iter().fold((0.0, 0), |(area, edges), l| (area + l.area, edges + l.edges()));
-        BoundaryField { area, edges, loops, unit }
+        BoundaryField { edges: loops.iter().map(Loop::edges).sum(), loops, unit }
+    }
+
+    /// Of a loop at a sample, in edges.
+    fn cost(&self, l: u32) -> f64 {
+        EDGES_OF_CHORD + self.loops[l as usize].edges() as f64
     }
 
     /// Bytes held.
@@ -77,7 +82,6 @@ impl BoundaryField {
             field: self,
             caps,
             values: vec![0.0; counts.iter().product()],
-            interpolation_per_area: need.interpolation_error() / self.area,
             rounding_per_edge: need.rounding_error() / self.edges as f64,
             need,
             grid,
@@ -85,7 +89,7 @@ impl BoundaryField {
         };
         let counts = |l: &u32| !self.loops[*l as usize].is_flat;
         let loops: Vec<u32> = (0..self.loops.len() as u32).filter(counts).collect();
-        block.divide(all(&block.grid), &loops, None);
+        block.divide(all(&block.grid), &loops, None, need.interpolation_error());
         block.values
     }
 }
@@ -140,8 +144,6 @@ struct Block<'a> {
     counts: [usize; 3],
     values: Vec<f64>,
     need: Need,
-    /// Bound of the error of interpolation allowed for each unit of a loop's area.
-    interpolation_per_area: f64,
     /// Bound of what 32-bit floats may add for each edge, in turns.
     rounding_per_edge: f64,
 }
@@ -150,26 +152,31 @@ struct Block<'a> {
 struct Plan {
     /// Nodes along each axis; none where the samples are no more.
     nodes: [Option<usize>; 3],
+    loops: Separated,
+    cost: f64,
+}
+
+struct Separated {
     far: Vec<u32>,
     near: Vec<u32>,
-    cost: f64,
+    /// Bound of the error of interpolating those that are far.
+    spent: f64,
 }
 
 impl Block<'_> {
     /// Adds the field of `loops` and of the interpolant of what has been summed already to a region.
-    fn divide(&mut self, region: Region, loops: &[u32], from: Option<&Interpolant>) {
+    /// Interpolation may add an error of up to `most`.
+    fn divide(&mut self, region: Region, loops: &[u32], from: Option<&Interpolant>, most: f64) {
         let grid: Grid = std::array::from_fn(|axis| self.grid[axis][region[axis].clone()].to_vec());
         let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
         let samples = counts.iter().product::<usize>() as f64;
-        let edges = |loops: &[u32]| -> f64 {
-            loops.iter().map(|l| EDGES_OF_CHORD + self.field.loops[*l as usize].edges() as f64).sum()
-        };
+        let edges = |loops: &[u32]| -> f64 { loops.iter().map(|l| self.field.cost(*l)).sum() };
         let bounds = box_of(&self.grid, &region);
-        let most = |l: &u32| {
+        let largest = |l: &u32| {
             let one = &self.field.loops[*l as usize];
-            largest(one.area, &one.bounds, &bounds)
+            curtains::largest(one.area, &one.bounds, &bounds)
         };
-        let spread: f64 = loops.iter().map(most).sum();
+        let spread: f64 = loops.iter().map(largest).sum();
         if self.need.may_be_met(spread) {
             let values = from.map_or_else(|| vec![0.0], |f| f.at(&grid));
             if self.need.is_met(&values, spread) {
@@ -188,20 +195,21 @@ impl Block<'_> {
                 if nodes == [None; 3] || !(0..3).all(keeps) {
                     continue;
                 }
-                let (far, near) = self.separate(loops, &bounds, nodes);
+                let loops = self.separate(loops, &bounds, nodes, SHARE * most);
+                let (far, near) = (&loops.far, &loops.near);
                 let sums: f64 = (0..3).map(|a| nodes[a].unwrap_or(counts[a]) as f64).product();
                 // Of what is near some part will be far from the parts of the region.
                 let can_divide = counts.iter().any(|c| *c > 2 * FEW);
                 let rest = if near.is_empty() {
                     0.0
                 } else {
-                    samples * (ANGLE_COST + if can_divide { 0.5 } else { 1.0 } * edges(&near))
+                    samples * (ANGLE_COST + if can_divide { 0.5 } else { 1.0 } * edges(near))
                 };
                 let interpolation =
                     if far.is_empty() { 0.0 } else { INTERPOLATION_COST * count as f64 * samples };
-                let cost = sums * (edges(&far) + ANGLE_COST) + rest + interpolation;
+                let cost = sums * (edges(far) + ANGLE_COST) + rest + interpolation;
                 if plan.as_ref().is_none_or(|p| cost < p.cost) {
-                    plan = Some(Plan { nodes, far, near, cost });
+                    plan = Some(Plan { nodes, loops, cost });
                 }
             }
         }
@@ -213,29 +221,45 @@ impl Block<'_> {
         };
         let own = self.interpolant(&grid, &plan, from);
         let from = own.as_ref().or(from);
-        if plan.near.is_empty() {
+        let Separated { near, spent, .. } = &plan.loops;
+        if near.is_empty() {
             self.add_interpolant(&region, &grid, from);
         } else {
-            each_part(&region, FEW, |part| self.divide(part, &plan.near, from));
+            each_part(&region, FEW, |part| self.divide(part, near, from, most - spent));
         }
     }
 
-    /// Loops that can be interpolated, and the others.
-    fn separate(&self, loops: &[u32], bounds: &Aabb, nodes: [Option<usize>; 3]) -> (Vec<u32>, Vec<u32>) {
-        let (mut far, mut near) = (Vec::new(), Vec::new());
-        for l in loops {
+    /// Loops that can be interpolated within a bound of the error, as many edges as possible, and the others; with the bound
+    /// of what that takes.
+    fn separate(&self, loops: &[u32], bounds: &Aabb, nodes: [Option<usize>; 3], most: f64) -> Separated {
+        let error = |l: &u32| {
             let one = &self.field.loops[*l as usize];
-            let allowed = self.interpolation_per_area * one.area;
-            let is_apart = away(bounds, &one.bounds).is_some();
-            let is_far = is_apart && interpolation_error(one.area, &one.bounds, bounds, nodes) <= allowed;
-            if is_far { far.push(*l) } else { near.push(*l) }
+            if away(bounds, &one.bounds).is_none() {
+                return f64::INFINITY;
+            }
+            interpolation_error(one.area, &one.bounds, bounds, nodes)
+        };
+        let mut near: Vec<(u32, f64)> = loops.iter().map(|l| (*l, error(l))).collect();
+        let (mut far, mut spent) = (Vec::new(), 0.0);
+        // Each edge may take the same, and what is left is for those that need more.
+        for _ in 0..ROUNDS {
+            let per_edge = (most - spent) / near.iter().map(|(l, _)| self.field.cost(*l)).sum::<f64>();
+            near.retain(|(l, error)| {
+                let is_far = *error <= per_edge * self.field.cost(*l);
+                if is_far {
+                    spent += error;
+                    far.push(*l);
+                }
+                !is_far
+            });
         }
-        (far, near)
+        far.sort_unstable();
+        Separated { far, near: near.into_iter().map(|(l, _)| l).collect(), spent }
     }
 
     /// The sum of an interpolant and of the loops that are far, at the nodes of a plan; none if there are no such loops.
     fn interpolant(&self, grid: &Grid, plan: &Plan, from: Option<&Interpolant>) -> Option<Interpolant> {
-        if plan.far.is_empty() {
+        if plan.loops.far.is_empty() {
             return None;
         }
         let nodes: [Nodes; 3] = std::array::from_fn(|axis| {
@@ -251,7 +275,7 @@ impl Block<'_> {
         let region = all(&points);
         let bounds = box_of(grid, &all(grid));
         let mut sums = self.sums(&points);
-        let (few, rest) = within_half_a_turn(&self.field.loops, &bounds, &plan.far);
+        let (few, rest) = within_half_a_turn(&self.field.loops, &bounds, &plan.loops.far);
         for (some, may_turn) in [(few, false), (rest, true)] {
             for (direction, some) in by_direction(&self.field.loops, &bounds, &some).0 {
                 sums.add(&region, &some, direction, may_turn);
