@@ -73,24 +73,25 @@ fn contract(values: &[f64], [outer, from, inner]: [usize; 3], matrix: &[f64], to
 /// Bound of the error of interpolating the winding number of caps of an area, all in a box, over a block: at `nodes` nodes
 /// along each axis, or exactly along those with none. Along an axis, with the other two coordinates anywhere in the block,
 /// the field of a dipole at s is singular at z = s_x ± iR, R its distance from the axis; the ellipse with the ends of the
-/// block as foci on which these lie has as its major axis the sum of the distances of s from the two ends. Inside of it, at
-/// a distance D from it, the field is at most 1 / 4πD² for each unit of area.
+/// block as foci on which these lie has as its major axis the sum of the distances of s from the two ends, which is least for
+/// the s of the box that is nearest to the axis, and to the middle of the block along it. Inside of that ellipse, at a distance
+/// D from it, the field is at most 1 / 4πD² for each unit of area.
 pub fn interpolation_error(area: f64, bounds: &Aabb, block: &Aabb, nodes: [Option<usize>; 3]) -> f64 {
     let (mut error, mut growth) = (0.0, 1.0);
+    let gap = (bounds.min - block.max).max(block.min - bounds.max).max(Vec3::ZERO);
+    let (middle, half) = (block.center(), 0.5 * block.size());
     for (axis, count) in nodes.into_iter().enumerate() {
         let Some(count) = count else { continue };
-        let half = 0.5 * (block.max[axis] - block.min[axis]);
-        let to_face = |coordinate: f64| {
-            let mut face = *block;
-            (face.min[axis], face.max[axis]) = (coordinate, coordinate);
-            (bounds.min - face.max).max(face.min - bounds.max).max(Vec3::ZERO).length()
-        };
-        let singular = (to_face(block.min[axis]) + to_face(block.max[axis])) / (2.0 * half);
-        if singular <= 1.0 {
+        let beside = (gap.length_squared() - gap[axis] * gap[axis]).max(0.0);
+        let nearest = middle[axis].clamp(bounds.min[axis], bounds.max[axis]) - middle[axis];
+        let to_end = |end: f64| (beside + (nearest - end) * (nearest - end)).sqrt();
+        let singular = (to_end(half[axis]) + to_end(-half[axis])) / (2.0 * half[axis]);
+        // Where they touch, rounding decides.
+        if singular <= 1.0 + 1e-9 {
             return f64::INFINITY;
         }
         let (reach, factor) = bernstein(singular, count);
-        let distance = half * (singular - reach);
+        let distance = half[axis] * (singular - reach);
         error += growth * factor * area / (4.0 * PI * distance * distance);
         growth *= lebesgue(count);
     }
