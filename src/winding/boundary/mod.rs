@@ -11,7 +11,7 @@ mod loops;
 mod product;
 
 use crate::data::Lattice;
-use crate::math::{Aabb, Floats, Nodes, Vec3};
+use crate::math::{Aabb, Floats, Nodes, Vec3, lebesgue};
 use curtains::{Grid, Region, Sums, all, away, box_of};
 use direct::{Direct, by_direction, each_part, within_half_a_turn};
 use interpolant::{Interpolant, interpolation_error};
@@ -25,6 +25,8 @@ const EXACT: f64 = 1e-12;
 /// Bounds of interpolation errors are at least this many times what is seen (300 times for 1e-5 on the bunny, more for finer
 /// and coarser ones): where an error is promised but no proof.
 const MARGIN: f64 = 100.0;
+/// Where less is asked for, 32-bit floats are not considered.
+const LEAST_ROUNDING: f64 = 1e-7;
 /// Axes with up to this many samples are not divided.
 const FEW: usize = 4;
 /// Costs of a sample or node, in those of an edge seen from it: of interpolation, for each node along an axis; of the
@@ -42,8 +44,6 @@ const EDGES_OF_CHORD: f64 = 0.7;
 #[derive(Clone, Debug, Default)]
 pub struct BoundaryField {
     loops: Vec<Loop>,
-    /// Boundary edges.
-    edges: usize,
     /// A power of two that brings lengths to about 1.
     unit: f64,
 }
@@ -53,7 +53,7 @@ impl BoundaryField {
         let loops = loops(cycles, caps);
         let size = loops.iter().map(|l| l.bounds).fold(Aabb::EMPTY, Aabb::union).size().max_element();
         let unit = f64x4::splat(size).reciprocal_power_of_two().to_array()[0];
-        BoundaryField { edges: loops.iter().map(Loop::edges).sum(), loops, unit }
+        BoundaryField { loops, unit }
     }
 
     /// Of a loop at a sample, in edges.
@@ -78,18 +78,11 @@ impl BoundaryField {
         let grid: Grid =
             std::array::from_fn(|axis| (low[axis]..high[axis]).map(|i| sample(axis, i)).collect());
         let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
-        let mut block = Block {
-            field: self,
-            caps,
-            values: vec![0.0; counts.iter().product()],
-            rounding_per_edge: need.rounding_error() / self.edges as f64,
-            need,
-            grid,
-            counts,
-        };
+        let mut block =
+            Block { field: self, caps, values: vec![0.0; counts.iter().product()], need, grid, counts };
         let counts = |l: &u32| !self.loops[*l as usize].is_flat;
         let loops: Vec<u32> = (0..self.loops.len() as u32).filter(counts).collect();
-        block.divide(all(&block.grid), &loops, None, need.interpolation_error());
+        block.divide(all(&block.grid), &loops, None, need.allowance());
         block.values
     }
 }
@@ -104,18 +97,16 @@ pub enum Need {
 }
 
 impl Need {
-    fn interpolation_error(self) -> f64 {
+    fn allowance(self) -> Allowance {
         match self {
-            Need::Value { tolerance } => MARGIN * tolerance.max(EXACT),
-            Need::Side { error, .. } => error - self.rounding_error() - 1e-9,
-        }
-    }
-
-    /// What 32-bit floats may add.
-    fn rounding_error(self) -> f64 {
-        match self {
-            Need::Value { tolerance } => MARGIN * tolerance,
-            Need::Side { error, .. } => 0.25 * error,
+            Need::Value { tolerance } => Allowance {
+                interpolation: MARGIN * tolerance.max(EXACT),
+                rounding: if tolerance < LEAST_ROUNDING { 0.0 } else { MARGIN * tolerance },
+            },
+            Need::Side { error, .. } => {
+                let rounding = if error < LEAST_ROUNDING { 0.0 } else { 0.25 * error };
+                Allowance { interpolation: error - rounding - 1e-9, rounding }
+            }
         }
     }
 
@@ -144,8 +135,13 @@ struct Block<'a> {
     counts: [usize; 3],
     values: Vec<f64>,
     need: Need,
-    /// Bound of what 32-bit floats may add for each edge, in turns.
-    rounding_per_edge: f64,
+}
+
+/// Bounds of errors that may still be made at the samples of a region: of interpolation, and of 32-bit floats.
+#[derive(Clone, Copy)]
+struct Allowance {
+    interpolation: f64,
+    rounding: f64,
 }
 
 /// What is done with the loops of a region.
@@ -165,8 +161,7 @@ struct Separated {
 
 impl Block<'_> {
     /// Adds the field of `loops` and of the interpolant of what has been summed already to a region.
-    /// Interpolation may add an error of up to `most`.
-    fn divide(&mut self, region: Region, loops: &[u32], from: Option<&Interpolant>, most: f64) {
+    fn divide(&mut self, region: Region, loops: &[u32], from: Option<&Interpolant>, allowed: Allowance) {
         let grid: Grid = std::array::from_fn(|axis| self.grid[axis][region[axis].clone()].to_vec());
         let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
         let samples = counts.iter().product::<usize>() as f64;
@@ -195,7 +190,7 @@ impl Block<'_> {
                 if nodes == [None; 3] || !(0..3).all(keeps) {
                     continue;
                 }
-                let loops = self.separate(loops, &bounds, nodes, SHARE * most);
+                let loops = self.separate(loops, &bounds, nodes, SHARE * allowed.interpolation);
                 let (far, near) = (&loops.far, &loops.near);
                 let sums: f64 = (0..3).map(|a| nodes[a].unwrap_or(counts[a]) as f64).product();
                 // Of what is near some part will be far from the parts of the region.
@@ -216,16 +211,18 @@ impl Block<'_> {
         let direct = samples * (edges(loops) + ANGLE_COST);
         let Some(plan) = plan.filter(|p| p.cost < direct) else {
             self.add_interpolant(&region, &grid, from);
-            self.add_directly(&region, &grid, loops);
+            self.add_directly(&region, &grid, loops, allowed.rounding);
             return;
         };
-        let own = self.interpolant(&grid, &plan, from);
+        let mut rest = allowed;
+        let own = self.interpolant(&grid, &plan, from, &mut rest.rounding);
         let from = own.as_ref().or(from);
         let Separated { near, spent, .. } = &plan.loops;
+        rest.interpolation -= spent;
         if near.is_empty() {
             self.add_interpolant(&region, &grid, from);
         } else {
-            each_part(&region, FEW, |part| self.divide(part, near, from, most - spent));
+            each_part(&region, FEW, |part| self.divide(part, near, from, rest));
         }
     }
 
@@ -258,7 +255,13 @@ impl Block<'_> {
     }
 
     /// The sum of an interpolant and of the loops that are far, at the nodes of a plan; none if there are no such loops.
-    fn interpolant(&self, grid: &Grid, plan: &Plan, from: Option<&Interpolant>) -> Option<Interpolant> {
+    fn interpolant(
+        &self,
+        grid: &Grid,
+        plan: &Plan,
+        from: Option<&Interpolant>,
+        rounding: &mut f64,
+    ) -> Option<Interpolant> {
         if plan.loops.far.is_empty() {
             return None;
         }
@@ -274,19 +277,24 @@ impl Block<'_> {
         let mut values = from.map_or_else(|| vec![0.0; len], |f| f.at(&points));
         let region = all(&points);
         let bounds = box_of(grid, &all(grid));
-        let mut sums = self.sums(&points);
+        // Interpolation may enlarge errors at the nodes.
+        let growth: f64 = plan.nodes.iter().flatten().map(|count| lebesgue(*count)).product();
+        let mut sums = self.sums(&points, &plan.loops.far, SHARE * *rounding / growth);
         let (few, rest) = within_half_a_turn(&self.field.loops, &bounds, &plan.loops.far);
         for (some, may_turn) in [(few, false), (rest, true)] {
             for (direction, some) in by_direction(&self.field.loops, &bounds, &some).0 {
                 sums.add(&region, &some, direction, may_turn);
             }
         }
+        *rounding -= growth * sums.rounding_spent();
         sums.add_to(&mut values);
         Some(Interpolant { nodes, values })
     }
 
-    fn sums<'b>(&'b self, grid: &'b Grid) -> Sums<'b> {
-        Sums::new(&self.field.loops, grid, self.field.unit, self.rounding_per_edge)
+    /// Of `some` loops, rounded to 32 bits where that adds no more than `rounding` in all.
+    fn sums<'b>(&'b self, grid: &'b Grid, some: &[u32], rounding: f64) -> Sums<'b> {
+        let edges: usize = some.iter().map(|l| self.field.loops[*l as usize].points.len()).sum();
+        Sums::new(&self.field.loops, grid, self.field.unit, rounding / edges as f64)
     }
 
     fn add_interpolant(&mut self, region: &Region, grid: &Grid, interpolant: Option<&Interpolant>) {
@@ -304,11 +312,11 @@ impl Block<'_> {
         }
     }
 
-    fn add_directly(&mut self, region: &Region, grid: &Grid, loops: &[u32]) {
+    fn add_directly(&mut self, region: &Region, grid: &Grid, loops: &[u32], rounding: f64) {
         if loops.is_empty() {
             return;
         }
-        let values = Direct::new(self.field, self.caps, grid, self.sums(grid)).sum(loops);
+        let values = Direct::new(self.field, self.caps, grid, self.sums(grid, loops, rounding)).sum(loops);
         self.add(region, &values);
     }
 }
