@@ -58,12 +58,15 @@ pub struct Sums<'a> {
     grid: &'a Grid,
     /// What rounding to 32 bits may add for each edge, in units of 2⁻²⁴ turns.
     rounding: f64,
+    rounding_spent: f64,
     unit: f64,
     coarse: Product<f32>,
     fine: Product<f64>,
     polygons: Polygons,
 }
 
+/// 1/ε for 32-bit floats.
+const ROUNDINGS_PER_TURN: f64 = (1 << 24) as f64;
 /// How far the farthest point of all loops may be, in units of the distance to the nearest point of any, for products of
 /// 32-bit floats to be numbers.
 const FARTHEST: f64 = 1000.0;
@@ -73,9 +76,18 @@ impl<'a> Sums<'a> {
     /// `unit` a power of two that brings lengths to about 1.
     pub fn new(loops: &'a [Loop], grid: &'a Grid, unit: f64, rounding: f64) -> Sums<'a> {
         let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
-        let rounding = rounding * f64::from(1 << 24);
+        let rounding = rounding * ROUNDINGS_PER_TURN;
         let polygons = Polygons::default();
-        Sums { loops, grid, rounding, unit, coarse: Product::of(counts), fine: Product::of(counts), polygons }
+        Sums {
+            loops,
+            grid,
+            rounding,
+            rounding_spent: 0.0,
+            unit,
+            coarse: Product::of(counts),
+            fine: Product::of(counts),
+            polygons,
+        }
     }
 
     /// Adds what is seen of loops that lie in a direction, the sign of an axis, from a region of the grid. Turns are counted
@@ -84,13 +96,17 @@ impl<'a> Sums<'a> {
         let block = box_of(self.grid, region);
         let all = loops.iter().fold(block, |all, l| all.union(self.loops[*l as usize].bounds));
         let farthest = all.size().length();
-        let is_coarse = |l: &u32| {
-            let bounds = &self.loops[*l as usize].bounds;
-            let gap = gap(&block, bounds, direction);
-            let ratio = block.union(*bounds).size().length() / gap;
-            rounding(ratio) <= self.rounding && farthest <= FARTHEST * gap
+        let mut spent = 0.0;
+        let is_coarse = |l: &&u32| {
+            let one = &self.loops[**l as usize];
+            let gap = gap(&block, &one.bounds, direction);
+            let of_edge = rounding(block.union(one.bounds).size().length() / gap);
+            let is_coarse = of_edge <= self.rounding && farthest <= FARTHEST * gap;
+            spent += if is_coarse { of_edge * one.points.len() as f64 } else { 0.0 };
+            is_coarse
         };
-        let (coarse, fine): (Vec<u32>, Vec<u32>) = loops.iter().partition(|l| is_coarse(l));
+        let (coarse, fine): (Vec<u32>, Vec<u32>) = loops.iter().partition(is_coarse);
+        self.rounding_spent += spent;
         let side =
             Side { grid: self.grid, region, direction, center: block.center(), unit: self.unit, may_turn };
         if !coarse.is_empty() {
@@ -103,6 +119,11 @@ impl<'a> Sums<'a> {
             self.polygons.set(self.loops, &fine);
             self.fine.multiply(&self.polygons, &side);
         }
+    }
+
+    /// A bound of what 32-bit floats have added anywhere, in turns.
+    pub fn rounding_spent(&self) -> f64 {
+        self.rounding_spent / ROUNDINGS_PER_TURN
     }
 
     /// Adds what is seen of single caps, those with these numbers of all, from a region amid them; where that is in doubt it is
