@@ -22,13 +22,14 @@ const BYTES_AT_ONCE: usize = 34_000_000;
 /// Most samples along each axis of a block of fractions.
 const TOP: usize = 32;
 const BLOCKS_PER_REPORT: usize = 32;
-/// How far fractions may be off where they are not needed exactly, first; and then, for blocks of which more than a few
-/// samples are left open. What few finer looks leave open is summed.
-const CLASSIFICATION_ERRORS: [f64; 3] = [0.25, 2e-3, 1e-5];
+/// How far fractions may be off where they are not needed exactly: at first, and in boxes of samples that this leaves open. What
+/// is open still, or in no box, is summed.
+const CLASSIFICATION_ERRORS: [f64; 2] = [1e-2, 1e-5];
+/// So few samples of a block need no boxes.
 const FEW_SUMS: usize = 64;
-/// Finer looks are taken at boxes of up to so many samples, or so many for each that is open.
-const SMALL_BOX: usize = 512;
-const MOST_OF_BOX: usize = 4;
+/// Samples of a box for each that is open, at most; and how many of these it takes.
+const MOST_OF_BOX: usize = 6;
+const FEW_IN_BOX: usize = 32;
 /// Crossings beyond this are not told apart.
 const MOST_CROSSINGS: f64 = 32_000.0;
 
@@ -182,97 +183,94 @@ impl SoupField {
     }
 
     fn least_of_block(&self, lattice: &Lattice, [low, high]: [[usize; 3]; 2], threshold: f64) -> Vec<i16> {
-        let counts: [usize; 3] = std::array::from_fn(|axis| high[axis] - low[axis]);
-        let mut result = vec![0; counts.iter().product()];
-        let place = |s: &Sample| ((s[2] - low[2]) * counts[1] + (s[1] - low[1])) * counts[0] + s[0] - low[0];
-        let mut boxes = vec![OpenSamples { low, high, samples: None }];
-        let mut open: Vec<Sample> = Vec::new();
-        for error in CLASSIFICATION_ERRORS {
-            open.clear();
-            for one in &boxes {
-                let need = Need::Side { threshold, error };
-                let fractions = self.boundary.block(&self.closure.caps, lattice, [one.low, one.high], need);
-                let mut decide = |sample: &Sample| {
-                    let fraction = fractions[one.place(sample)];
-                    let least = least_integer(threshold, fraction - error);
-                    result[place(sample)] = least;
-                    if least != least_integer(threshold, fraction + error) {
-                        open.push(*sample);
-                    }
-                };
-                match &one.samples {
-                    Some(samples) => samples.iter().for_each(&mut decide),
-                    None => {
-                        let (least, highest) = extremes(&fractions);
-                        let decided = least_integer(threshold, least - error);
-                        if decided == least_integer(threshold, highest + error) {
-                            return vec![decided; result.len()];
-                        }
-                        for k in low[2]..high[2] {
-                            for j in low[1]..high[1] {
-                                (low[0]..high[0]).for_each(|i| decide(&[i, j, k]));
-                            }
-                        }
-                    }
+        let mut result = Vec::new();
+        let mut open = Vec::new();
+        let looks = CLASSIFICATION_ERRORS.map(|error| Need::Side { threshold, error });
+        let block = Box3 { low, high };
+        let fractions = self.boundary.block(&self.closure.caps, lattice, [low, high], looks[0]);
+        let (least, highest) = extremes(&fractions);
+        let [error, finer] = CLASSIFICATION_ERRORS;
+        let decided = least_integer(threshold, least - error);
+        if decided == least_integer(threshold, highest + error) {
+            return vec![decided; fractions.len()];
+        }
+        for (place, fraction) in fractions.iter().enumerate() {
+            let least = least_integer(threshold, fraction - error);
+            result.push(least);
+            if least != least_integer(threshold, fraction + error) {
+                open.push(block.sample(place));
+            }
+        }
+        let (mut boxes, mut singly) = (Vec::new(), Vec::new());
+        if open.len() > FEW_SUMS {
+            cover(open, &mut boxes, &mut singly);
+        } else {
+            singly = open;
+        }
+        for (one, samples) in boxes {
+            let fractions = self.boundary.block(&self.closure.caps, lattice, [one.low, one.high], looks[1]);
+            for sample in samples {
+                let fraction = fractions[one.place(sample)];
+                let least = least_integer(threshold, fraction - finer);
+                result[block.place(sample)] = least;
+                if least != least_integer(threshold, fraction + finer) {
+                    singly.push(sample);
                 }
             }
-            if open.len() <= FEW_SUMS {
-                break;
-            }
-            boxes = Vec::new();
-            cover(std::mem::take(&mut open), &mut boxes);
         }
-        if open.is_empty() {
-            open.extend(boxes.into_iter().filter_map(|one| one.samples).flatten());
-        }
-        for four in open.chunks(LANES) {
+        for four in singly.chunks(LANES) {
             let queries: [Vec3; LANES] = std::array::from_fn(|k| lattice.point(four[k.min(four.len() - 1)]));
             for ((sample, q), fraction) in four.iter().zip(queries).zip(self.curtain.fractions(&queries)) {
                 let fraction = fraction - f64::from(self.cap_crossings(q));
-                result[place(sample)] = least_integer(threshold, fraction + TIE);
+                result[block.place(*sample)] = least_integer(threshold, fraction + TIE);
             }
         }
-        self.count_refined(open.len());
+        self.count_refined(singly.len());
         result
     }
 }
 
 type Sample = [usize; 3];
 
-/// Samples of a box that are not decided yet; all of them if there is no list.
-struct OpenSamples {
+/// Samples from a corner to before another, x fastest.
+struct Box3 {
     low: Sample,
     high: Sample,
-    samples: Option<Vec<Sample>>,
 }
 
-impl OpenSamples {
-    fn place(&self, [i, j, k]: &Sample) -> usize {
+impl Box3 {
+    fn counts(&self) -> [usize; 3] {
+        std::array::from_fn(|axis| self.high[axis] - self.low[axis])
+    }
+
+    fn place(&self, [i, j, k]: Sample) -> usize {
         let [nx, ny, _] = self.counts();
         ((k - self.low[2]) * ny + (j - self.low[1])) * nx + i - self.low[0]
     }
 
-    fn counts(&self) -> [usize; 3] {
-        std::array::from_fn(|axis| self.high[axis] - self.low[axis])
+    fn sample(&self, place: usize) -> Sample {
+        let [nx, ny, _] = self.counts();
+        [self.low[0] + place % nx, self.low[1] + place / nx % ny, self.low[2] + place / (nx * ny)]
     }
 }
 
-/// Covers samples by boxes, of which a good part is samples unless they are small.
-fn cover(samples: Vec<Sample>, boxes: &mut Vec<OpenSamples>) {
+/// Covers samples by boxes of which a good part is samples, but for few that are not worth a box.
+fn cover(samples: Vec<Sample>, boxes: &mut Vec<(Box3, Vec<Sample>)>, singly: &mut Vec<Sample>) {
+    if samples.len() < FEW_IN_BOX {
+        return singly.extend(samples);
+    }
     let low = samples.iter().fold([usize::MAX; 3], |low, s| std::array::from_fn(|a| low[a].min(s[a])));
     let high = samples.iter().fold([0; 3], |high, s| std::array::from_fn(|a| high[a].max(s[a] + 1)));
-    let mut one = OpenSamples { low, high, samples: None };
+    let one = Box3 { low, high };
     let counts = one.counts();
-    let volume: usize = counts.iter().product();
-    if volume <= SMALL_BOX || volume <= MOST_OF_BOX * samples.len() {
-        one.samples = Some(samples);
-        return boxes.push(one);
+    if counts.iter().product::<usize>() <= MOST_OF_BOX * samples.len() {
+        return boxes.push((one, samples));
     }
     let axis = (0..3).max_by_key(|axis| counts[*axis]).expect("there are three");
     let middle = low[axis] + counts[axis] / 2;
     let (before, behind) = samples.into_iter().partition(|s| s[axis] < middle);
-    cover(before, boxes);
-    cover(behind, boxes);
+    cover(before, boxes, singly);
+    cover(behind, boxes, singly);
 }
 
 /// The least integer that reaches a threshold together with a fraction.
