@@ -100,7 +100,7 @@ impl Need {
     fn allowance(self) -> Allowance {
         match self {
             Need::Value { tolerance } => Allowance {
-                interpolation: MARGIN * tolerance.max(EXACT),
+                interpolation: margin(tolerance.max(EXACT)) * tolerance.max(EXACT),
                 rounding: if tolerance < LEAST_ROUNDING { 0.0 } else { MARGIN * tolerance },
             },
             Need::Side { error, .. } => {
@@ -135,6 +135,11 @@ struct Block<'a> {
     counts: [usize; 3],
     values: Vec<f64>,
     need: Need,
+}
+
+/// MARGIN, and more for small tolerances.
+fn margin(tolerance: f64) -> f64 {
+    MARGIN * libm::pow((1e-3 / tolerance).max(1.0), 0.12)
 }
 
 /// Bounds of errors that may still be made at the samples of a region: of interpolation, and of 32-bit floats.
