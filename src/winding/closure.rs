@@ -11,7 +11,7 @@ const LOOSE_SHARE: f64 = 0.25;
 
 /// Soups with up to this many boundary edges are closed whatever their share: so few cost little, and classifications are
 /// then proven.
-const FEW_EDGES: usize = 4096;
+const FEW_EDGES: usize = 2000;
 
 /// How a soup is taken apart.
 #[derive(Clone, Debug, Default)]

@@ -353,9 +353,8 @@ impl<T: Number> Rows<T> {
         let mut edges = [[&self.along[..count]; 3]; N];
         for n in 0..N {
             let mut lanes = [T::default(); MOST];
-            for i in 0..F::COUNT {
-                lanes[i] = self.queries[few[n].start + i.min(few[n].count - 1)];
-            }
+            let queries = &self.queries[few[n].start..][..few[n].count];
+            lanes.iter_mut().enumerate().for_each(|(i, lane)| *lane = queries[i.min(few[n].count - 1)]);
             q[n] = F::load(&lanes);
             (x[n], y[n]) = (target.load(0, &few[n]), target.load(1, &few[n]));
             wraps[n] = target.load(2, &few[n]);
