@@ -29,6 +29,10 @@ const MARGIN: f64 = 100.0;
 const ROUNDING_MARGIN: f64 = 1000.0;
 /// Where less is asked for, 32-bit floats are not considered.
 const LEAST_ROUNDING: f64 = 1e-6;
+/// The share of a proven error that is left to 32-bit floats: bounds of interpolation fall fast with more nodes, those of
+/// rounding do not; and the least error for which they are considered.
+const ROUNDING_OF_SIDES: f64 = 0.75;
+const LEAST_ROUNDING_OF_SIDES: f64 = 1e-4;
 /// Axes with up to this many samples are not divided.
 const FEW: usize = 4;
 /// Costs of a sample or node, in those of an edge seen from it: of interpolation, for each node along an axis; of the
@@ -106,7 +110,7 @@ impl Need {
                 rounding: if tolerance < LEAST_ROUNDING { 0.0 } else { ROUNDING_MARGIN * tolerance },
             },
             Need::Side { error, .. } => {
-                let rounding = if error < LEAST_ROUNDING { 0.0 } else { 0.25 * error };
+                let rounding = if error < LEAST_ROUNDING_OF_SIDES { 0.0 } else { ROUNDING_OF_SIDES * error };
                 Allowance { interpolation: error - rounding - 1e-9, rounding }
             }
         }
