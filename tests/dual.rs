@@ -5,7 +5,7 @@ use common::*;
 use fast_winding::data::{Lattice, OrientedCloud, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3};
 use fast_winding::treecode::{
-    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Sources, Targets,
+    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Proof, Sources, Targets,
 };
 use fast_winding::winding::{Triangles, winding_of_cloud, winding_of_soup};
 use std::sync::Arc;
@@ -30,7 +30,7 @@ fn evaluate(tree: &DualTree, targets: &dyn Targets, count: usize, accuracy: Dual
         }
         Outcome::Within { .. } => panic!("nothing was decided"),
     };
-    tree.evaluate(targets, &accuracy, &Silent, None, &mut store).unwrap();
+    tree.evaluate(targets, &accuracy, &Silent, Proof::Bounds, &mut store).unwrap();
     results
 }
 
@@ -121,7 +121,7 @@ fn nothing_has_no_field() {
     let points = [Vec3::ZERO, Vec3::ONE];
     assert_eq!(evaluate(&tree, &PointTargets::new(&points), 2, DualAccuracy::DEFAULT)[1].0, 0.0);
     let full = DualTree::build(of(&cube(1.0)), LEAF);
-    full.evaluate(&PointTargets::new(&[]), &DualAccuracy::DEFAULT, &Silent, None, &mut |_, _| {
+    full.evaluate(&PointTargets::new(&[]), &DualAccuracy::DEFAULT, &Silent, Proof::Bounds, &mut |_, _| {
         panic!("there are no queries")
     })
     .unwrap();
@@ -254,7 +254,7 @@ fn decided_blocks_hold_the_field_between_their_bounds() {
         &LatticeTargets::new(&lattice),
         &DualAccuracy::DEFAULT,
         &Silent,
-        Some(&|_, low, high| low >= 0.5 || high < 0.5),
+        Proof::Decisions(&|_, low, high| low >= 0.5 || high < 0.5),
         &mut store,
     )
     .unwrap();
@@ -267,8 +267,13 @@ fn a_monitor_can_stop_the_evaluation() {
     let tree = DualTree::build(of(&cube(1.0)), LEAF);
     let lattice = Lattice::with_resolution(cube(1.0).bounds(), 120).unwrap();
     let monitor = |fraction: f64, _: &str| fraction < 0.3;
-    let result =
-        tree.evaluate(&LatticeTargets::new(&lattice), &DualAccuracy::DEFAULT, &monitor, None, &mut |_, _| {});
+    let result = tree.evaluate(
+        &LatticeTargets::new(&lattice),
+        &DualAccuracy::DEFAULT,
+        &monitor,
+        Proof::Bounds,
+        &mut |_, _| {},
+    );
     assert!(result.is_err());
 }
 

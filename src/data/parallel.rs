@@ -68,6 +68,9 @@ pub fn map_items<R: Send>(items: usize, item: impl Fn(usize) -> R + Sync) -> Vec
 }
 
 fn collect_items<R: Send>(items: usize, item: &(dyn Fn(usize) -> R + Sync)) -> Vec<R> {
+    if threads() == 1 {
+        return (0..items).map(item).collect();
+    }
     let tasks = map_tasks(items.div_ceil(ITEMS_PER_TASK), |task| {
         let first = task * ITEMS_PER_TASK;
         (first..items.min(first + ITEMS_PER_TASK)).map(item).collect::<Vec<R>>()

@@ -93,7 +93,8 @@ impl TriangleSoup {
     /// The three corners of triangle `index`.
     #[inline]
     pub fn corners(&self, index: usize) -> [Vec3; 3] {
-        self.triangles[index].map(|i| self.positions[i as usize])
+        let [a, b, c] = self.triangles[index];
+        [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
     }
 
     /// The smallest box around all triangles; vertices that no triangle uses do not count.

@@ -18,6 +18,8 @@ pub trait Floats:
     fn store(self, to: &mut [Self::Number]);
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
+    /// The larger of each two; both are numbers.
+    fn max(self, other: Self) -> Self;
     /// The numbers of `magnitudes`, which are positive, with the signs of these.
     fn with_signs_on(self, magnitudes: Self) -> Self;
     /// 2⁻ᵉ for positive normal numbers with exponent e: what keeps products from overflowing and rounds nothing.
@@ -111,6 +113,11 @@ macro_rules! plain {
             }
 
             #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                self.fast_max(other)
+            }
+
+            #[inline(always)]
             fn with_signs_on(self, magnitudes: Self) -> Self {
                 (self & $name::splat($number::SIGN)) | magnitudes
             }
@@ -155,7 +162,7 @@ mod avx {
     macro_rules! floats {
         (
             $name:ident, $register:ident, $number:ident, $count:literal, $splat:ident, $load:ident, $store:ident,
-            $operators:tt, $sqrt:ident, $and:ident, $or:ident, $and_not:ident, $compare:ident, $mask:ident,
+            $operators:tt, $sqrt:ident, $max:ident, $and:ident, $or:ident, $and_not:ident, $compare:ident, $mask:ident,
             $to_integers:ident, $from_integers:ident, $splat_half:ident, $subtract_half:ident
         ) => {
             #[derive(Clone, Copy)]
@@ -190,6 +197,11 @@ mod avx {
                 #[inline(always)]
                 fn abs(self) -> Self {
                     unsafe { $name($and_not($splat($number::SIGN), self.0)) }
+                }
+
+                #[inline(always)]
+                fn max(self, other: Self) -> Self {
+                    unsafe { $name($max(self.0, other.0)) }
                 }
 
                 #[inline(always)]
@@ -233,13 +245,13 @@ mod avx {
     floats!(
         Singles, __m256, f32, 8, _mm256_set1_ps, _mm256_loadu_ps, _mm256_storeu_ps,
         { Add add _mm256_add_ps Sub sub _mm256_sub_ps Mul mul _mm256_mul_ps Div div _mm256_div_ps },
-        _mm256_sqrt_ps, _mm256_and_ps, _mm256_or_ps, _mm256_andnot_ps, _mm256_cmp_ps, _mm256_movemask_ps,
+        _mm256_sqrt_ps, _mm256_max_ps, _mm256_and_ps, _mm256_or_ps, _mm256_andnot_ps, _mm256_cmp_ps, _mm256_movemask_ps,
         _mm256_castps_si256, _mm256_castsi256_ps, _mm_set1_epi32, _mm_sub_epi32
     );
     floats!(
         Doubles, __m256d, f64, 4, _mm256_set1_pd, _mm256_loadu_pd, _mm256_storeu_pd,
         { Add add _mm256_add_pd Sub sub _mm256_sub_pd Mul mul _mm256_mul_pd Div div _mm256_div_pd },
-        _mm256_sqrt_pd, _mm256_and_pd, _mm256_or_pd, _mm256_andnot_pd, _mm256_cmp_pd, _mm256_movemask_pd,
+        _mm256_sqrt_pd, _mm256_max_pd, _mm256_and_pd, _mm256_or_pd, _mm256_andnot_pd, _mm256_cmp_pd, _mm256_movemask_pd,
         _mm256_castpd_si256, _mm256_castsi256_pd, _mm_set1_epi64x, _mm_sub_epi64
     );
 }
@@ -268,7 +280,8 @@ mod tests {
             let b = (a - F::splat(numbers[1])) * a + F::splat(numbers[5]);
             let root = b.abs().sqrt();
             let mut stored = [zero; LEN];
-            for floats in [a, b, root, b / root, b.with_signs_on(root), root.reciprocal_power_of_two()] {
+            let scale = root.reciprocal_power_of_two();
+            for floats in [a, b, root, b / root, a.max(b), b.with_signs_on(root), scale] {
                 floats.store(&mut stored);
                 give(&stored[..F::COUNT]);
             }

@@ -2,7 +2,7 @@
 //! the points that these leave open, at last the direct sum.
 use crate::data::{Cancelled, Monitor, fill_in_blocks};
 use crate::math::Vec3;
-use crate::treecode::{DualAccuracy, DualTree, Outcome, PointTargets, Sources, Targets};
+use crate::treecode::{DualAccuracy, DualTree, Outcome, PointTargets, Proof, Sources, Targets};
 use std::sync::Arc;
 
 /// From so many scattered points on they are sorted into blocks; fewer are walked one by one.
@@ -51,7 +51,9 @@ impl Many {
         values: &mut [f64],
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
-        self.each(targets, accuracy, monitor, &mut |index, w| values[index] += w)
+        self.each(targets, accuracy, monitor, &mut |indices, found| {
+            indices.iter().zip(found).for_each(|(index, w)| values[*index] += w);
+        })
     }
 
     fn each(
@@ -59,11 +61,11 @@ impl Many {
         targets: &dyn Targets,
         accuracy: &DualAccuracy,
         monitor: &dyn Monitor,
-        give: &mut dyn FnMut(usize, f64),
+        give: &mut dyn FnMut(&[usize], &[f64]),
     ) -> Result<(), Cancelled> {
-        self.tree.evaluate(targets, accuracy, monitor, None, &mut |indices, outcome| {
+        self.tree.evaluate(targets, accuracy, monitor, Proof::Nothing, &mut |indices, outcome| {
             if let Outcome::Values { values, .. } = outcome {
-                indices.iter().zip(values).for_each(|(index, w)| give(*index, *w));
+                give(indices, values);
             }
         })
     }
@@ -94,11 +96,15 @@ impl Many {
                 }
             };
             if look == 0 {
-                self.each(targets, &accuracy, &named, &mut judge)?;
+                self.each(targets, &accuracy, &named, &mut |indices, found| {
+                    indices.iter().zip(found).for_each(|(index, w)| judge(*index, *w));
+                })?;
             } else {
                 let points: Vec<Vec3> = open.iter().map(|&index| (test.point)(index)).collect();
                 let targets = PointTargets::new(&points);
-                self.each(&targets, &accuracy, &again, &mut |k, w| judge(open[k], w))?;
+                self.each(&targets, &accuracy, &again, &mut |places, found| {
+                    places.iter().zip(found).for_each(|(k, w)| judge(open[*k], *w));
+                })?;
             }
             open = left;
         }

@@ -59,6 +59,7 @@ impl Kernel for Triangles {
         self.closure.as_ref().map_or(self.soup.len(), |c| c.caps.len() + c.loose.len())
     }
 
+    #[inline]
     fn corners(&self, index: usize) -> [Vec3; 3] {
         match &self.closure {
             None => self.soup.corners(index),

@@ -29,12 +29,17 @@ impl DualAccuracy {
         if tolerance.is_nan() || tolerance < FINEST {
             return None;
         }
-        let error = 2e-4 * libm::pow(1e3 * tolerance, 1.45);
+        let error = 1.6e-4 * libm::pow(1e3 * tolerance, 1.4);
         Some(if tolerance > COARSE {
-            DualAccuracy { order: 2, degree: 4, error: 0.5 * error }
+            DualAccuracy { order: 2, degree: 4, error: 0.6 * error }
         } else {
             DualAccuracy { order: 3, degree: 5, error }
         })
+    }
+
+    /// What the field of a source near a block may lack.
+    pub(super) fn of_source(&self) -> f32 {
+        (SHARE_OF_SOURCE * self.error) as f32
     }
 
     /// The nearest parameters that make sense.
@@ -47,20 +52,24 @@ impl DualAccuracy {
     }
 }
 
+/// Share of the error of a cluster that a single source may have. With 0.3 the largest error at a tolerance of 1e-3 is a fifth
+/// larger, and no time is saved.
+const SHARE_OF_SOURCE: f64 = 0.1;
 /// 32-bit floats lose more.
 const LEAST_ERROR: f64 = 1e-9;
 
-// Largest errors on a lattice of 100³ over the bunny's triangles moved apart, and over its vertices as dipoles, against direct
-// sums; what is fitted above leaves a margin of 1.3 to 1.6:
-//   order 3, degree 5: 3.5e-3 and 3.2e-3 for an error of 2e-3, 1.3e-3 and 1.3e-3 for 5e-4, 4.6e-4 and 4.4e-4 for 1e-4,
-//     1.9e-4 and 1.6e-4 for 3e-5, 9.6e-5 and 8.2e-5 for 1e-5, 1.9e-5 and 1.6e-5 for 1e-6, 6.9e-6 and 7.2e-6 for 3e-7;
-//   order 2, degree 4: 2.8e-2 and 5.0e-2 for 2e-2, 1.7e-2 and 2.2e-2 for 1e-2, 1.1e-2 and 1.1e-2 for 5e-3, and below that
-//     more time for the same.
+// Largest errors on a lattice of 100³ over the bunny's triangles, over the same moved apart, and over its barycentres as
+// dipoles (tests/bench/dual.rs); what is fitted above leaves a margin of 1.2 to 1.5:
+//   order 3, degree 5: 8.8e-3, 7.1e-3 and 1.1e-2 for an error of 5.6e-3, 3.8e-3, 4.3e-3 and 4.9e-3 for 2e-3, 1.4e-3, 1.5e-3
+//     and 1.5e-3 for 5e-4, 4.5e-4, 4.7e-4 and 5.1e-4 for 1e-4, 2.2e-4, 2.1e-4 and 1.9e-4 for 3e-5, 9.5e-5, 1.1e-4 and 9.8e-5
+//     for 1e-5, 1.9e-5, 2.0e-5 and 1.8e-5 for 1e-6, 8.3e-6, 8.3e-6 and 7.7e-6 for 3e-7;
+//   order 2, degree 4: 2.7e-2, 2.9e-2 and 3.5e-2 for 2e-2, 1.7e-2, 1.8e-2 and 1.9e-2 for 1e-2, 1.5e-2, 1.2e-2 and 1.3e-2 for
+//     5e-3.
 
 /// Below this tolerance 32-bit floats, which lose some 3e-6, are not good enough.
 const FINEST: f64 = 1e-5;
 /// Above this tolerance short series are fastest.
-const COARSE: f64 = 1.2e-2;
+const COARSE: f64 = 1.5e-2;
 
 impl Default for DualAccuracy {
     fn default() -> Self {

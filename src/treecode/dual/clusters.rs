@@ -1,9 +1,10 @@
 //! Clusters of sources with their multipole moments, bottom-up over a [`Bvh`].
+use super::factors::factors;
 use super::local::sum_of_lanes;
-use super::moments::{COEFFICIENTS, Moments};
-use super::{SourceKind, Sources, WIDTH};
+use super::moments::{COEFFICIENTS, Member, Moments};
+use super::{SourceKind, Sources};
 use crate::bvh::{Bvh, Child, morton_code};
-use crate::data::{map_items, set_each};
+use crate::data::{map_items, map_parts, set_each};
 use crate::math::{Aabb, Vec3, area_vector};
 use crate::treecode::frame::Frame;
 use std::f64::consts::PI;
@@ -41,8 +42,8 @@ pub struct Series {
     pub area: f32,
     /// Upper bounds of the means over the area of (|y|/radius)^k, k = 2 and 4, y relative to the centre.
     pub spread: [f32; 2],
-    /// A_γ / (4π · area · radius^(n−1)), n = |γ|: numbers of the order of 1.
-    pub coefficients: [f32; COEFFICIENTS],
+    /// Of the moments / (4π · area · radius^(n−1)), n = |γ|, which are of the order of 1.
+    pub factors: [f32; COEFFICIENTS],
 }
 
 /// All clusters; those below one are contiguous.
@@ -65,6 +66,8 @@ const ROUND_SUM_UP: f32 = 1.01;
 /// How far a corner can be from what 32-bit floats make of it: √3 · 2⁻²⁵, as coordinates are up to 1/2; and a little more.
 const CORNER_ROUNDING: f64 = 6e-8;
 
+/// Sources whose corners are one task.
+const SOURCES_PER_TASK: usize = 1024;
 /// Clusters whose moments are one task.
 const PARTS_PER_TASK: usize = 256;
 
@@ -78,15 +81,13 @@ struct Part {
 
 impl Clusters {
     pub fn build(sources: &dyn Sources, leaf_size: usize) -> Clusters {
-        let all = map_items(sources.len(), |i| sources.corners(i));
-        let bounds = Aabb::around(all.iter().flatten().copied());
-        let middle = |i: usize| Aabb::around(all[i]).center();
-        let bvh = Bvh::along_curve(map_items(all.len(), |i| morton_code(middle(i), &bounds)), leaf_size);
+        let kind = sources.kind();
+        let bounds = Aabb::around((0..sources.len()).flat_map(|i| sources.corners(i)));
+        let code = |i: usize| morton_code(Aabb::around(sources.corners(i)).center(), &bounds);
+        let bvh = Bvh::along_curve(map_items(sources.len(), code), leaf_size);
         let frame = Frame::around(&bounds);
         let (links, levels) = link(&bvh);
-        let members = map_items(all.len(), |k| Member::new(sources, &all, bvh.items()[k] as usize, &frame));
-        drop(all);
-        let corners = Corners::new(&members, sources.kind());
+        let member = |place: usize| Member::new(sources, bvh.items()[place] as usize, &frame);
         let empty = Part { area: 0.0, center: Vec3::ZERO, moments: Moments::ZERO };
         let mut parts = vec![empty; links.len()];
         for level in levels.iter().rev() {
@@ -95,12 +96,13 @@ impl Clusters {
                 let link = &links[level.start + k];
                 let range = link.range();
                 *part = if link.is_leaf() {
-                    Part::of_sources(&members[range], sources.kind())
+                    Part::of_sources(&range.map(member).collect::<Vec<_>>(), kind)
                 } else {
                     Part::of_parts(&lower[range.start - level.end..range.end - level.end])
                 };
             });
         }
+        let corners = Corners::new(sources.len(), kind, &member);
         let spans = spans(&links);
         let (balls, series) =
             map_items(parts.len(), |k| parts[k].pack(&corners, &spans[k])).into_iter().unzip();
@@ -160,15 +162,7 @@ impl Part {
             middle = middle.including(*a).including(*b).including(*c);
         }
         let center = narrowed(area, weighted, middle.center());
-        let mut moments = Moments::ZERO;
-        for Member { corners: [a, b, c], area_vector } in members {
-            if kind == SourceKind::Points {
-                moments.add_point(*a - center, *area_vector);
-            } else {
-                moments.add_triangle([*a - center, *b - center, *c - center], *area_vector);
-            }
-        }
-        Part { area, center, moments }
+        Part { area, center, moments: Moments::of(members, kind, center) }
     }
 
     fn of_parts(parts: &[Part]) -> Part {
@@ -191,30 +185,26 @@ impl Part {
         for n in 1..5 {
             let degree = n * n - 1..n * n + 2 * n;
             let terms = &self.moments.coefficients[degree.clone()];
-            coefficients[degree].iter_mut().zip(terms).for_each(|(c, term)| *c = (scale * term) as f32);
+            coefficients[degree].iter_mut().zip(terms).for_each(|(c, term)| *c = scale * term);
             scale *= per_radius;
         }
         // By Minkowski's inequality, corners that were moved by CORNER_ROUNDING move the power mean by no more.
         let mean = |sum: f32, power: i32| {
-            let seen = (f64::from(sum * ROUND_SUM_UP) * per_area).powf(1.0 / f64::from(power));
+            let square = (f64::from(sum * ROUND_SUM_UP) * per_area).sqrt();
+            let seen = if power == 2 { square } else { square.sqrt() };
             let bound = ((seen + CORNER_ROUNDING) * per_radius).powi(power) * ROUND_UP;
             bound.min(1.0) as f32
         };
         let spread = [mean(squares, 2), mean(fourths, 4)];
         let [x, y, z] = self.center.to_array().map(|c| c as f32);
-        ([x, y, z, radius], Series { area, spread, coefficients })
+        ([x, y, z, radius], Series { area, spread, factors: factors(&coefficients).map(|f| f as f32) })
     }
 }
 
-/// A source in the unit frame.
-struct Member {
-    corners: [Vec3; 3],
-    area_vector: Vec3,
-}
-
 impl Member {
-    fn new(sources: &dyn Sources, all: &[[Vec3; 3]], item: usize, frame: &Frame) -> Member {
-        let corners = all[item].map(|corner| frame.local(corner));
+    /// A source in the unit frame.
+    fn new(sources: &dyn Sources, item: usize, frame: &Frame) -> Member {
+        let corners = sources.corners(item).map(|corner| frame.local(corner));
         let area_vector = match sources.kind() {
             SourceKind::Triangles => area_vector(corners),
             SourceKind::Points => frame.scale * frame.scale * sources.area_vector(item),
@@ -237,17 +227,19 @@ struct Corners {
 }
 
 impl Corners {
-    fn new(members: &[Member], kind: SourceKind) -> Corners {
+    fn new(sources: usize, kind: SourceKind, member: &(dyn Fn(usize) -> Member + Sync)) -> Corners {
         let for_each = if kind == SourceKind::Points { 1 } else { 3 };
-        let mut corners = Vec::with_capacity(for_each * members.len());
-        for member in members {
-            let share = (member.area_vector.length() / for_each as f64 * ROUND_UP) as f32;
-            corners.extend(member.corners[..for_each].iter().map(|corner| {
-                let [x, y, z] = corner.to_array().map(|x| x as f32);
-                [x, y, z, share]
-            }));
-        }
-        Corners { corners, for_each }
+        let mut all = vec![[0.0; 4]; for_each * sources];
+        map_parts(&mut all, for_each * SOURCES_PER_TASK, |part, corners| {
+            for (k, corners) in corners.chunks_mut(for_each).enumerate() {
+                let member = member(part * SOURCES_PER_TASK + k);
+                let share = (member.area_vector.length() / for_each as f64 * ROUND_UP) as f32;
+                for (to, corner) in corners.iter_mut().zip(member.corners) {
+                    *to = [corner.x as f32, corner.y as f32, corner.z as f32, share];
+                }
+            }
+        });
+        Corners { corners: all, for_each }
     }
 
     /// The largest distance of a corner in `span` from `center`, rounded up, and the sums of area times the square and the
@@ -257,7 +249,7 @@ impl Corners {
         let [x, y, z] = center.to_array().map(|c| f32x4::splat(c as f32));
         let corners = &self.corners[span.start * self.for_each..span.end * self.for_each];
         let (mut largest, mut squares, mut fourths) = (f32x4::ZERO, f32x4::ZERO, f32x4::ZERO);
-        for group in corners.chunks(WIDTH) {
+        for group in corners.chunks(4) {
             // Repeating a corner without its area changes nothing.
             let at = |k: usize| {
                 let [x, y, z, share] = *group.get(k).unwrap_or(&group[0]);

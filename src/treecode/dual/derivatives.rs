@@ -1,11 +1,13 @@
-//! Derivatives of 1/r, and with them Taylor coefficients of far fields (M2L), for four clusters at once.
+//! Derivatives of 1/r, and with them Taylor coefficients of far fields (M2L), for several clusters at once.
+use super::bounds::highest;
 use super::harmonic::place;
 use super::local::MAX_DEGREE;
 use super::moments::{COEFFICIENTS, MAX_ORDER};
-use wide::f32x4;
+use super::octet::Octet;
+use crate::math::Floats;
 
-/// Highest order of derivative: of a multipole of degree p + 1, q times more.
-const TOP: usize = MAX_ORDER + 1 + MAX_DEGREE;
+/// Highest order of derivative.
+const TOP: usize = highest(MAX_ORDER, MAX_DEGREE);
 
 /// Where degree n begins in the table: three rows of n + 1, n and n − 1 entries.
 const fn start(n: usize) -> usize {
@@ -17,8 +19,9 @@ const fn row(n: usize, z: usize) -> usize {
     start(n) + [0, n + 1, 2 * n + 1][z]
 }
 
-/// More than `start(TOP + 1)`: any place that fits in 8 bits, with the longest row behind it, is inside, which saves checks.
-const ENTRIES: usize = 256 + MAX_DEGREE + 1;
+/// A power of two: any place modulo this, with the longest row behind it, is inside, which saves checks.
+const PLACES: usize = start(TOP + 1).next_power_of_two();
+const ENTRIES: usize = PLACES + MAX_DEGREE + 1;
 /// Zeros before and after each row, so that the recursion needs no special cases.
 const MARGIN: usize = 2;
 const ROW: usize = TOP + 1 + 2 * MARGIN;
@@ -26,10 +29,10 @@ const ROW: usize = TOP + 1 + 2 * MARGIN;
 /// Derivatives D_γ of 1/r at a unit vector, γ of degree 0, 1 and 2 in z, with the space to compute them.
 pub struct Derivatives {
     /// With 2 in z, the negatives.
-    table: [f32x4; ENTRIES],
+    table: [Octet; ENTRIES],
     /// E_γ below, of degree 0 and 1 in z.
-    plain: [[f32x4; ROW]; TOP + 1],
-    times_z: [[f32x4; ROW]; TOP + 1],
+    plain: [[Octet; ROW]; TOP + 1],
+    times_z: [[Octet; ROW]; TOP + 1],
 }
 
 /// D_γ = γ! sₙ E_γ with sₙ = (−1)ⁿ (2n−1)!!/n!: the E_γ are of the order of 1 and satisfy
@@ -54,8 +57,8 @@ const fn factorial(n: usize) -> f64 {
 }
 
 /// sₙ a! b! of the entry of degree n with a in x and b in y.
-const SCALE: [[f32x4; TOP + 1]; 2 * (TOP + 1)] = {
-    let mut values = [[f32x4::new([0.0; 4]); TOP + 1]; 2 * (TOP + 1)];
+const SCALE: [[f32; TOP + 1]; 2 * (TOP + 1)] = {
+    let mut values = [[0.0; TOP + 1]; 2 * (TOP + 1)];
     let (mut n, mut s) = (0, 1.0);
     while n <= TOP {
         if n > 0 {
@@ -65,8 +68,7 @@ const SCALE: [[f32x4; TOP + 1]; 2 * (TOP + 1)] = {
         while z < 2 {
             let mut a = 0;
             while a + z <= n {
-                let scale = (s * factorial(a) * factorial(n - z - a)) as f32;
-                values[2 * n + z][a] = f32x4::new([scale; 4]);
+                values[2 * n + z][a] = (s * factorial(a) * factorial(n - z - a)) as f32;
                 a += 1;
             }
             z += 1;
@@ -78,37 +80,35 @@ const SCALE: [[f32x4; TOP + 1]; 2 * (TOP + 1)] = {
 
 impl Default for Derivatives {
     fn default() -> Self {
-        let rows = [[f32x4::ZERO; ROW]; TOP + 1];
-        Derivatives { table: [f32x4::ZERO; ENTRIES], plain: rows, times_z: rows }
+        let rows = [[Octet::ZERO; ROW]; TOP + 1];
+        Derivatives { table: [Octet::ZERO; ENTRIES], plain: rows, times_z: rows }
     }
 }
 
 impl Derivatives {
-    /// Computes all derivatives up to order `top`, 9 at most, at the unit vectors `u`.
-    pub fn compute(&mut self, u: [f32x4; 3], top: usize) {
-        let one = f32x4::splat(1.0);
-        self.plain[0][MARGIN] = one;
-        self.table[0] = one;
+    /// Computes all derivatives up to order `top`, 6 at most, at the unit vectors `u`.
+    #[inline(always)]
+    pub fn compute<F: Floats<Number = f32>>(&mut self, u: [F; 3], top: usize) {
+        let one = F::splat(1.0);
+        self.plain[0][MARGIN].put(0, one);
+        self.table[0].put(0, one);
         for n in 1..=top {
             match n {
-                1 => self.compute_order::<1>(u),
-                2 => self.compute_order::<2>(u),
-                3 => self.compute_order::<3>(u),
-                4 => self.compute_order::<4>(u),
-                5 => self.compute_order::<5>(u),
-                6 => self.compute_order::<6>(u),
-                7 => self.compute_order::<7>(u),
-                8 => self.compute_order::<8>(u),
-                _ => self.compute_order::<9>(u),
+                1 => self.compute_order::<F, 1>(u),
+                2 => self.compute_order::<F, 2>(u),
+                3 => self.compute_order::<F, 3>(u),
+                4 => self.compute_order::<F, 4>(u),
+                5 => self.compute_order::<F, 5>(u),
+                _ => self.compute_order::<F, TOP>(u),
             }
         }
     }
 
     /// The derivatives of order `N` from those of the two orders below. A function for each order, so that its loops are
     /// unrolled.
-    #[inline(never)]
-    fn compute_order<const N: usize>(&mut self, [x, y, z]: [f32x4; 3]) {
-        let kappa = f32x4::splat(KAPPA[N]);
+    #[inline(always)]
+    fn compute_order<F: Floats<Number = f32>, const N: usize>(&mut self, [x, y, z]: [F; 3]) {
+        let kappa = F::splat(KAPPA[N]);
         let (below, from) = self.plain.split_at_mut(N);
         let (below_z, from_z) = self.times_z.split_at_mut(N);
         let (first, second) = (&below[N - 1], &below[N.saturating_sub(2)]);
@@ -116,73 +116,90 @@ impl Derivatives {
         let (rows, scale) = (&mut self.table[start(N)..start(N + 1)], &SCALE[2 * N..2 * N + 2]);
         for a in 0..N + 1 {
             let i = a + MARGIN;
-            let e = (x * first[i - 1] + y * first[i]) - kappa * (second[i - 2] + second[i]);
-            from[0][i] = e;
-            rows[a] = e * scale[0][a];
+            let e = (x * first[i - 1].get::<F>(0) + y * first[i].get::<F>(0))
+                - kappa * (second[i - 2].get::<F>(0) + second[i].get::<F>(0));
+            from[0][i].put(0, e);
+            rows[a].put(0, e * F::splat(scale[0][a]));
         }
         for a in 0..N {
             let i = a + MARGIN;
-            let e = (x * first_z[i - 1] + y * first_z[i] + z * first[i])
-                - kappa * (second_z[i - 2] + second_z[i]);
-            from_z[0][i] = e;
-            rows[N + 1 + a] = e * scale[1][a];
+            let e = (x * first_z[i - 1].get::<F>(0) + y * first_z[i].get::<F>(0) + z * first[i].get::<F>(0))
+                - kappa * (second_z[i - 2].get::<F>(0) + second_z[i].get::<F>(0));
+            from_z[0][i].put(0, e);
+            rows[N + 1 + a].put(0, e * F::splat(scale[1][a]));
         }
         for a in 0..N - 1 {
-            rows[2 * N + 1 + a] = rows[a + 2] + rows[a];
+            rows[2 * N + 1 + a].put(0, rows[a + 2].get::<F>(0) + rows[a].get::<F>(0));
         }
     }
 
-    /// Adds s^|β| Σ A_γ D_(γ+β) to `sums`, for all β up to `degree` with 0 or 1 in z, A_γ up to degree `order` + 1.
-    pub fn add_taylor(
+    /// Adds s^|β| Σ A_γ D_(γ+β) to a part of `sums`, for all β up to `degree` with 0 or 1 in z, A_γ up to degree
+    /// `order` + 1, and γ + β up to [`highest`].
+    #[inline(always)]
+    pub fn add_taylor<F: Floats<Number = f32>>(
         &self,
-        order: usize,
-        degree: usize,
-        coefficients: &[f32x4; COEFFICIENTS],
-        s: f32x4,
-        sums: &mut [f32x4; REDUCED],
+        (order, degree): (usize, usize),
+        coefficients: &[F; COEFFICIENTS],
+        s: F,
+        part: usize,
+        sums: &mut [Octet; REDUCED],
     ) {
-        let coefficients = &coefficients[..place(order + 2, 0, 0) - 1];
-        let mut power = f32x4::splat(1.0);
+        let mut power = F::splat(1.0);
         for m in 0..=degree {
+            let longest = (order + 1).min(highest(order, degree) - m);
+            let coefficients = &coefficients[..place(longest + 1, 0, 0) - 1];
             match m {
-                0 => self.add_degree::<0, 1>(coefficients, power, sums),
-                1 => self.add_degree::<1, 2>(coefficients, power, sums),
-                2 => self.add_degree::<2, 3>(coefficients, power, sums),
-                3 => self.add_degree::<3, 4>(coefficients, power, sums),
-                4 => self.add_degree::<4, 5>(coefficients, power, sums),
-                _ => self.add_degree::<5, 6>(coefficients, power, sums),
+                0 => self.add_degree::<F, 0, 1>(coefficients, power, part, sums),
+                1 => self.add_degree::<F, 1, 2>(coefficients, power, part, sums),
+                2 => self.add_degree::<F, 2, 3>(coefficients, power, part, sums),
+                3 => self.add_degree::<F, 3, 4>(coefficients, power, part, sums),
+                4 => self.add_degree::<F, 4, 5>(coefficients, power, part, sums),
+                _ => self.add_degree::<F, 5, 6>(coefficients, power, part, sums),
             }
-            power *= s;
+            power = power * s;
         }
     }
 
     /// Degree `M` of the above; `N` = `M` + 1. The sums of one degree stay in registers.
-    #[inline(never)]
-    fn add_degree<const M: usize, const N: usize>(
+    #[inline(always)]
+    fn add_degree<F: Floats<Number = f32>, const M: usize, const N: usize>(
         &self,
-        coefficients: &[f32x4],
-        scale: f32x4,
-        sums: &mut [f32x4; REDUCED],
+        coefficients: &[F],
+        scale: F,
+        part: usize,
+        sums: &mut [Octet; REDUCED],
     ) {
-        let (mut plain, mut times_z) = ([f32x4::ZERO; N], [f32x4::ZERO; M]);
-        for (c, [at, at_z, is_in_z]) in coefficients.iter().zip(&PLACES[M]) {
-            let (d, d_z) = (&self.table[*at as usize..][..N], &self.table[*at_z as usize..][..M]);
-            plain.iter_mut().zip(d).for_each(|(sum, d)| *sum += *c * *d);
+        let (mut plain, mut times_z) = ([F::splat(0.0); N], [F::splat(0.0); M]);
+        for (c, [at, at_z, is_in_z]) in coefficients.iter().zip(&STARTS[M]) {
+            let place = |at: &u8| *at as usize % PLACES;
+            let (d, d_z) = (&self.table[place(at)..][..N], &self.table[place(at_z)..][..M]);
+            for (sum, d) in plain.iter_mut().zip(d) {
+                *sum = *sum + *c * d.get(0);
+            }
             // z² = −x² − y²: the table has the negative.
             if *is_in_z == 0 {
-                times_z.iter_mut().zip(d_z).for_each(|(sum, d)| *sum += *c * *d);
+                for (sum, d) in times_z.iter_mut().zip(d_z) {
+                    *sum = *sum + *c * d.get(0);
+                }
             } else {
-                times_z.iter_mut().zip(d_z).for_each(|(sum, d)| *sum -= *c * *d);
+                for (sum, d) in times_z.iter_mut().zip(d_z) {
+                    *sum = *sum - *c * d.get(0);
+                }
             }
         }
-        let terms = plain.into_iter().chain(times_z);
-        sums[place(M, 0, 0)..].iter_mut().zip(terms).for_each(|(sum, term)| *sum += scale * term);
+        let (to_plain, to_times_z) = sums[place(M, 0, 0)..place(M + 1, 0, 0)].split_at_mut(N);
+        for (sum, term) in to_plain.iter_mut().zip(&plain) {
+            sum.add(part, scale * *term);
+        }
+        for (sum, term) in to_times_z.iter_mut().zip(&times_z) {
+            sum.add(part, scale * *term);
+        }
     }
 }
 
 /// For Taylor coefficients of degree M, and for each coefficient A_γ: where D_(γ+β) lies for the first β without z, for the
 /// first with z (the others follow), and whether γ has z.
-const PLACES: [[[u8; 3]; COEFFICIENTS]; MAX_DEGREE + 1] = {
+const STARTS: [[[u8; 3]; COEFFICIENTS]; MAX_DEGREE + 1] = {
     let mut places = [[[0; 3]; COEFFICIENTS]; MAX_DEGREE + 1];
     let mut m = 0;
     while m <= MAX_DEGREE {
@@ -212,6 +229,7 @@ pub const REDUCED: usize = place(MAX_DEGREE + 1, 0, 0);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use wide::f32x4;
 
     /// D_γ by differences of the closed form of one lower order would lose digits; the classical recursion in f64 does
     /// not: n R² D_γ = −(2n−1) Σ γᵢ xᵢ D_(γ−eᵢ) − (n−1) Σ γᵢ(γᵢ−1) D_(γ−2eᵢ).
@@ -268,7 +286,7 @@ mod tests {
             for z in 0..=2.min(n) {
                 for a in 0..=n - z {
                     let sign = if z == 2 { -1.0 } else { 1.0 };
-                    let value = sign * f64::from(derivatives.table[row(n, z) + a].to_array()[2]);
+                    let value = sign * f64::from(derivatives.table[row(n, z) + a].0[2]);
                     let exact = classical(u, [a as i32, (n - z - a) as i32, z as i32]);
                     // Derivatives of order n are of the order of n!.
                     assert!((value - exact).abs() < 1e-6 * factorial(n), "{n} {z} {a}: {value} {exact}");

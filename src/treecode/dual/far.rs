@@ -1,12 +1,15 @@
-//! Far fields of clusters at blocks of queries (M2L), four clusters at a time.
+//! Far fields of clusters at blocks of queries (M2L), eight clusters at a time.
 use super::bounds::{self, ROUND_UP, ROUNDING_OF_TAYLOR};
 use super::clusters::Clusters;
 use super::derivatives::{Derivatives, REDUCED};
-use super::local::{Local, sum_of_lanes};
+use super::factors;
+use super::local::{Local, sum_of_octet};
 use super::moments::COEFFICIENTS;
+use super::octet::{Octet, parts};
 use super::place::Place;
 use super::reach::CLASSES;
 use super::{DualAccuracy, WIDTH};
+use crate::math::{Floats, Registers, Work, in_widest_registers};
 use wide::f32x4;
 
 /// The space that M2L needs.
@@ -16,89 +19,134 @@ pub struct FarFields {
 }
 
 impl FarFields {
-    /// Adds the fields of the clusters `far` to the Taylor polynomial of a block; answers a bound of the error made.
+    /// Adds the fields of the clusters `far` to the Taylor polynomial of a block; answers a bound of
+    /// the error made if that is asked for.
     pub fn add(
         &mut self,
         clusters: &Clusters,
-        far: &[Vec<u32>; CLASSES],
+        far: &mut [Vec<u32>; CLASSES],
         place: &Place,
         accuracy: &DualAccuracy,
+        is_bounded: bool,
         local: &mut Local,
     ) -> f64 {
         if far.iter().all(Vec::is_empty) {
             return 0.0;
         }
-        let mut sums = [f32x4::ZERO; REDUCED];
-        let mut error = 0.0;
-        for (class, far) in far.iter().enumerate() {
-            for four in far.chunks(WIDTH) {
-                error += self.add_four(clusters, four, place, accuracy.class(class), &mut sums);
-            }
-        }
+        fill_up(far);
+        let (mut sums, mut errors) = ([Octet::ZERO; REDUCED], Octet::ZERO);
+        let derivatives = &mut self.derivatives;
+        let errors_if_asked = is_bounded.then_some(&mut errors);
+        let fields =
+            Fields { derivatives, clusters, far, place, accuracy, sums: &mut sums, errors: errors_if_asked };
+        in_widest_registers(fields);
         local.add_derivatives(&sums, accuracy.degree);
-        ROUND_UP * error
-    }
-
-    fn add_four(
-        &mut self,
-        clusters: &Clusters,
-        four: &[u32],
-        place: &Place,
-        (order, degree): (usize, usize),
-        sums: &mut [f32x4; REDUCED],
-    ) -> f64 {
-        let at = |k: usize| four[if k < four.len() { k } else { 0 }] as usize;
-        let members = [at(0), at(1), at(2), at(3)];
-        let ball = |k: usize| &clusters.balls[members[k]];
-        let (offset, radius) = place.relative_to([ball(0), ball(1), ball(2), ball(3)]);
-        let series = [0, 1, 2, 3].map(|k| &clusters.series[members[k]]);
-        let spread = |k: usize| bounds::spread_of_order(series[k].spread, order);
-        let spread = [spread(0), spread(1), spread(2), spread(3)];
-        // Places beyond the last cluster repeat the first, without area.
-        let weight = |k: usize| if k < four.len() { series[k].area } else { 0.0 };
-        let area = f32x4::from([weight(0), weight(1), weight(2), weight(3)]);
-
-        let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
-        let distance = square.sqrt();
-        let inverse = f32x4::splat(1.0) / distance;
-        let [a, b, c, d] = series;
-        let rows = [&a.coefficients, &b.coefficients, &c.coefficients, &d.coefficients];
-        let coefficients = weighted(rows, area * inverse * inverse, radius * inverse, order);
-        let reach = f32x4::splat(place.radius);
-        let unit = [offset[0] * inverse, offset[1] * inverse, offset[2] * inverse];
-        self.derivatives.compute(unit, order + 1 + degree);
-        let s = reach * inverse;
-        self.derivatives.add_taylor(order, degree, &coefficients, s, sums);
-
-        let (inner, outer) = (distance - reach, distance - radius);
-        let left_out = bounds::multipole_tail(area, f32x4::from(spread), radius, inner, order)
-            + bounds::taylor_tail(area, reach, outer, degree);
-        let rounding = bounds::largest_field(area, inner - radius);
-        sum_of_lanes(left_out) + ROUNDING_OF_TAYLOR * sum_of_lanes(rounding)
+        ROUND_UP * sum_of_octet(&errors)
     }
 }
 
-/// Coefficients of four clusters in lanes, those of degree n times `weight` · `ratio`^(n−1).
-#[inline(always)]
-fn weighted(
-    series: [&[f32; COEFFICIENTS]; WIDTH],
-    weight: f32x4,
-    ratio: f32x4,
-    order: usize,
-) -> [f32x4; COEFFICIENTS] {
-    let mut lanes = [f32x4::ZERO; COEFFICIENTS];
-    for k in (0..order * (order + 4) + 3).step_by(WIDTH) {
-        let row =
-            |of: usize| f32x4::from([series[of][k], series[of][k + 1], series[of][k + 2], series[of][k + 3]]);
-        let rows = [row(0), row(1), row(2), row(3)];
-        lanes[k..k + WIDTH].copy_from_slice(&f32x4::transpose(rows));
+/// Moves the last clusters of classes to the next longer ones where these have room for them in their last eight.
+fn fill_up(far: &mut [Vec<u32>; CLASSES]) {
+    for class in (1..CLASSES).rev() {
+        let (shorter, longer) = far.split_at_mut(class);
+        let (shorter, longer) = (&mut shorter[class - 1], &mut longer[0]);
+        let (rest, room) = (shorter.len() % WIDTH, longer.len().next_multiple_of(WIDTH) - longer.len());
+        if rest <= room {
+            longer.extend(shorter.drain(shorter.len() - rest..));
+        }
     }
-    let mut scale = weight;
-    for n in 1..order + 2 {
-        lanes[n * n - 1..n * n + 2 * n].iter_mut().for_each(|c| *c *= scale);
-        scale *= ratio;
+}
+
+/// The work of [`FarFields::add`].
+struct Fields<'a> {
+    derivatives: &'a mut Derivatives,
+    clusters: &'a Clusters,
+    far: &'a [Vec<u32>; CLASSES],
+    place: &'a Place,
+    accuracy: &'a DualAccuracy,
+    sums: &'a mut [Octet; REDUCED],
+    errors: Option<&'a mut Octet>,
+}
+
+impl Work for Fields<'_> {
+    #[inline(always)]
+    fn run<R: Registers>(mut self) {
+        let mut eight = Eight::default();
+        for (class, far) in self.far.iter().enumerate() {
+            let accuracy = self.accuracy.class(class);
+            for members in far.chunks(WIDTH) {
+                eight.gather(self.clusters, members, self.place, accuracy.0);
+                for part in parts::<R::Singles>().filter(|part| *part < members.len()) {
+                    self.add::<R::Singles>(&eight, part, accuracy);
+                }
+            }
+        }
     }
-    lanes
+}
+
+impl Fields<'_> {
+    #[inline(always)]
+    fn add<F: Floats<Number = f32>>(&mut self, eight: &Eight, part: usize, (order, degree): (usize, usize)) {
+        let [x, y, z] = &eight.offset;
+        let (x, y, z): (F, F, F) = (x.get(part), y.get(part), z.get(part));
+        let (radius, area): (F, F) = (eight.radius.get(part), eight.area.get(part));
+        let square = x * x + y * y + z * z;
+        let distance = square.sqrt();
+        let inverse = F::splat(1.0) / distance;
+        let mut factors = [F::splat(0.0); COEFFICIENTS];
+        for (factor, eight) in factors.iter_mut().zip(&eight.factors) {
+            *factor = eight.get(part);
+        }
+        let coefficients = factors::coefficients(factors, area * inverse * inverse, radius * inverse, order);
+        let reach = F::splat(self.place.radius);
+        let unit = [x * inverse, y * inverse, z * inverse];
+        let highest = bounds::highest(order, degree);
+        self.derivatives.compute(unit, highest);
+        self.derivatives.add_taylor((order, degree), &coefficients, reach * inverse, part, self.sums);
+
+        let Some(errors) = &mut self.errors else { return };
+        let (inner, outer) = (distance - reach, distance - radius);
+        let left_out = bounds::multipole_tail(area, eight.spread.get(part), radius, inner, order)
+            + bounds::taylor_tail(area, reach, outer, degree)
+            + bounds::products(area, radius * inverse, reach * inverse, distance, (order, degree));
+        let rounding = bounds::largest_field(area, inner - radius);
+        errors.add(part, left_out + F::splat(ROUNDING_OF_TAYLOR as f32) * rounding);
+    }
+}
+
+/// Up to eight clusters, side by side. Places beyond the last one repeat the first, without area.
+#[derive(Default)]
+struct Eight {
+    /// The block's centre relative to theirs.
+    offset: [Octet; 3],
+    radius: Octet,
+    area: Octet,
+    spread: Octet,
+    factors: [Octet; COEFFICIENTS],
+}
+
+impl Eight {
+    #[inline(always)]
+    fn gather(&mut self, clusters: &Clusters, members: &[u32], place: &Place, order: usize) {
+        let at = |k: usize| members[if k < members.len() { k } else { 0 }] as usize;
+        for half in (0..WIDTH).step_by(4) {
+            let four = [at(half), at(half + 1), at(half + 2), at(half + 3)];
+            let (offset, radius) = place.relative_to(four.map(|c| &clusters.balls[c]));
+            (0..3).for_each(|axis| self.offset[axis].put(half, offset[axis]));
+            self.radius.put(half, radius);
+            let series = four.map(|c| &clusters.series[c]);
+            for k in (0..order * (order + 4) + 3).step_by(4) {
+                let row = |of: usize| Floats::load(&series[of].factors[k..k + 4]);
+                let lanes = f32x4::transpose([row(0), row(1), row(2), row(3)]);
+                (0..4).for_each(|i| self.factors[k + i].put(half, lanes[i]));
+            }
+        }
+        for k in 0..WIDTH {
+            let series = &clusters.series[at(k)];
+            self.area.0[k] = if k < members.len() { series.area } else { 0.0 };
+            self.spread.0[k] = bounds::spread_of_order(series.spread, order);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -108,7 +156,6 @@ mod tests {
     use crate::treecode::dual::reach::LONGEST;
     use crate::treecode::dual::sources::tests::{Dipoles, random};
     use std::f64::consts::PI;
-    use wide::f32x4;
 
     fn exact(sources: &Dipoles, q: Vec3) -> f64 {
         sources.0.iter().map(|(p, v)| (*p - q).dot(*v) / ((*p - q).length().powi(3) * 4.0 * PI)).sum()
@@ -130,14 +177,14 @@ mod tests {
         let mut local = Local::ZERO;
         let mut longest: [Vec<u32>; CLASSES] = Default::default();
         longest[LONGEST].push(0);
-        let bound = FarFields::default().add(&clusters, &longest, &place, accuracy, &mut local);
+        let bound = FarFields::default().add(&clusters, &mut longest, &place, accuracy, true, &mut local);
         let mut worst: f64 = 0.0;
         for q in queries {
             let offset = (frame.local(q) - place.center) / f64::from(place.radius);
-            let mut values = [f32x4::ZERO];
-            let lanes = offset.to_array().map(|x| f32x4::splat(x as f32));
-            local.values(&[lanes], accuracy.degree, &mut values);
-            worst = worst.max((f64::from(values[0].to_array()[3]) - exact(&sources, q)).abs());
+            let mut values = [Octet::ZERO];
+            let group = offset.to_array().map(|x| Octet([x as f32; WIDTH]));
+            local.add_values(&[group], (1.0, [0.0; 3]), accuracy.degree, &mut values);
+            worst = worst.max((f64::from(values[0].0[3]) - exact(&sources, q)).abs());
         }
         let area: f64 = sources.0.iter().map(|s| s.1.length()).sum();
         (worst, bound, area / (4.0 * PI * (1.0 - 2.0 * size - reach).powi(2)))

@@ -1,7 +1,9 @@
 //! Local expansions: Taylor polynomials of far fields about the middle of a block of queries.
-use super::QueryLanes;
+use super::QueryGroup;
 use super::derivatives::REDUCED;
 use super::harmonic::place;
+use super::octet::{Octet, parts};
+use crate::math::{Floats, Registers, Work, in_widest_registers};
 use wide::f32x4;
 
 /// Highest degree.
@@ -53,14 +55,19 @@ pub struct Local {
 impl Local {
     pub const ZERO: Local = Local { terms: [0.0; TERMS] };
 
-    /// Adds derivatives L_β of a harmonic function, given with 0 and 1 in z, four lanes to be summed. Those with more in
+    /// Adds another polynomial about the same point, in the same unit.
+    pub fn add(&mut self, other: &Local) {
+        self.terms.iter_mut().zip(other.terms).for_each(|(sum, term)| *sum += term);
+    }
+
+    /// Adds derivatives L_β of a harmonic function, given with 0 and 1 in z, octets to be summed. Those with more in
     /// z follow: L_(a,b,c) = −L_(a+2,b,c−2) − L_(a,b+2,c−2).
-    pub fn add_derivatives(&mut self, reduced: &[f32x4; REDUCED], degree: usize) {
+    pub fn add_derivatives(&mut self, reduced: &[Octet; REDUCED], degree: usize) {
         for n in 0..=degree {
             let mut rows = [[0.0; MAX_DEGREE + 1]; 2];
             for (z, row) in rows.iter_mut().enumerate() {
                 let places = &reduced[place(n, z, 0)..place(n, z, (n + 1).saturating_sub(z))];
-                row.iter_mut().zip(places).for_each(|(l, lanes)| *l = sum_of_lanes(*lanes));
+                row.iter_mut().zip(places).for_each(|(l, lanes)| *l = sum_of_octet(lanes));
             }
             for c in 0..=n {
                 let row = &mut rows[c % 2];
@@ -140,26 +147,70 @@ impl Local {
         (self.terms[0], spread - self.terms[0].abs())
     }
 
-    /// Values at queries, four in each group, given in units of the block's radius (L2P).
-    pub fn values(&self, queries: &[QueryLanes], degree: usize, values: &mut [f32x4]) {
-        match degree {
-            ..=2 => self.values_of::<2>(queries, values),
-            3 => self.values_of::<3>(queries, values),
-            4 => self.values_of::<4>(queries, values),
-            _ => self.values_of::<5>(queries, values),
-        }
+    /// Adds the values at groups of queries, whose positions are `scale` times those given, moved by `shift`, in units of the
+    /// block's radius (L2P).
+    pub fn add_values(
+        &self,
+        queries: &[QueryGroup],
+        (scale, shift): (f32, [f32; 3]),
+        degree: usize,
+        values: &mut [Octet],
+    ) {
+        in_widest_registers(Values { local: self, queries, scale, shift, degree, values });
     }
 
-    fn values_of<const DEGREE: usize>(&self, queries: &[QueryLanes], values: &mut [f32x4]) {
-        let terms = self.terms.map(|t| f32x4::splat(t as f32));
-        let zero = f32x4::ZERO;
-        for ([x, y, z], value) in queries.iter().zip(values) {
-            let in_x = |b: usize, c: usize| {
-                let line = &terms[place_of(b, c)..][..=DEGREE - b - c];
-                line.iter().rev().fold(zero, |sum, term| sum * *x + *term)
-            };
-            let in_y = |c: usize| (0..=DEGREE - c).rev().fold(zero, |sum, b| sum * *y + in_x(b, c));
-            *value += (0..=DEGREE).rev().fold(zero, |sum, c| sum * *z + in_y(c));
+    #[inline(always)]
+    fn value_of<F: Floats<Number = f32>, const DEGREE: usize>(terms: &[f32; TERMS], [x, y, z]: [F; 3]) -> F {
+        let mut sum = F::splat(0.0);
+        for c in (0..=DEGREE).rev() {
+            let mut in_y = F::splat(0.0);
+            for b in (0..=DEGREE - c).rev() {
+                let mut in_x = F::splat(0.0);
+                for term in terms[place_of(b, c)..][..=DEGREE - b - c].iter().rev() {
+                    in_x = in_x * x + F::splat(*term);
+                }
+                in_y = in_y * y + in_x;
+            }
+            sum = sum * z + in_y;
+        }
+        sum
+    }
+}
+
+/// The work of [`Local::add_values`].
+struct Values<'a> {
+    local: &'a Local,
+    queries: &'a [QueryGroup],
+    scale: f32,
+    shift: [f32; 3],
+    degree: usize,
+    values: &'a mut [Octet],
+}
+
+impl Values<'_> {
+    #[inline(always)]
+    fn add<F: Floats<Number = f32>, const DEGREE: usize>(self) {
+        let terms = self.local.terms.map(|t| t as f32);
+        for (group, values) in self.queries.iter().zip(self.values) {
+            for part in parts::<F>() {
+                let scale = F::splat(self.scale);
+                let x = group[0].get::<F>(part) * scale + F::splat(self.shift[0]);
+                let y = group[1].get::<F>(part) * scale + F::splat(self.shift[1]);
+                let z = group[2].get::<F>(part) * scale + F::splat(self.shift[2]);
+                values.add(part, Local::value_of::<F, DEGREE>(&terms, [x, y, z]));
+            }
+        }
+    }
+}
+
+impl Work for Values<'_> {
+    #[inline(always)]
+    fn run<R: Registers>(self) {
+        match self.degree {
+            ..=2 => self.add::<R::Singles, 2>(),
+            3 => self.add::<R::Singles, 3>(),
+            4 => self.add::<R::Singles, 4>(),
+            _ => self.add::<R::Singles, 5>(),
         }
     }
 }
@@ -170,14 +221,20 @@ pub fn sum_of_lanes(lanes: f32x4) -> f64 {
     (a + b) + (c + d)
 }
 
+/// The sum of eight numbers.
+pub fn sum_of_octet(octet: &Octet) -> f64 {
+    let [a, b, c, d, e, f, g, h] = octet.0;
+    sum_of_lanes(f32x4::new([a, b, c, d]) + f32x4::new([e, f, g, h]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn value(local: &Local, p: [f32; 3]) -> f64 {
-        let mut values = [f32x4::ZERO];
-        local.values(&[p.map(f32x4::splat)], MAX_DEGREE, &mut values);
-        f64::from(values[0].to_array()[1])
+        let mut values = [Octet::ZERO];
+        local.add_values(&[p.map(|x| Octet([4.0 * x - 1.0; 8]))], (0.25, [0.25; 3]), MAX_DEGREE, &mut values);
+        f64::from(values[0].0[5])
     }
 
     #[test]

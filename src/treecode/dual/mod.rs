@@ -7,11 +7,14 @@ mod accuracy;
 mod bounds;
 mod clusters;
 mod derivatives;
+mod factors;
 mod far;
 mod harmonic;
 mod local;
 mod moments;
 mod multipole;
+mod near;
+mod octet;
 mod place;
 mod reach;
 mod sources;
@@ -20,15 +23,16 @@ mod tree;
 mod walk;
 
 pub use accuracy::{DualAccuracy, SourceKind};
-pub use sources::{NearLeaf, QueryBlock, QueryLanes, Sources};
+pub use octet::{Octet, parts};
+pub use sources::{NearLeaf, QueryBlock, QueryGroup, Sources, groups_of, relative};
 pub use targets::{BlockView, Cells, LatticeTargets, PointTargets, Targets};
-pub use tree::{Decided, DualTree, Outcome};
+pub use tree::{Decided, DualTree, Outcome, Proof};
 
 use crate::data::BLOCK;
 use local::MAX_DEGREE;
 use moments::MAX_ORDER;
 
-/// Queries in a group, one in each SIMD lane.
-pub const WIDTH: usize = 4;
+/// Queries in a group, and clusters that are taken together.
+pub const WIDTH: usize = 8;
 /// Groups of queries in a block.
 pub const GROUPS: usize = BLOCK / WIDTH;

@@ -1,151 +1,92 @@
-//! Multipole fields at queries (M2P), four at once.
-//!
-//! Modulo ξξ̄ + z² = 0, ξ = x + iy, the polynomials of degree n are spanned by Re ξ^m z^(n−m) and Im ξ^m z^(n−m), and
-//! (∂x + i∂y)^m ∂z^(n−m) (1/r) = (−1)ⁿ (2n−1)!! (u_x + i u_y)^m q_nm(u_z) / r^(n+1), q_nm the m-th derivative of the Legendre
-//! polynomial Pₙ, scaled to leading coefficient 1.
-use super::QueryLanes;
+//! Multipole fields at queries (M2P).
 use super::clusters::Series;
-use super::harmonic::place;
-use super::moments::COEFFICIENTS;
-use wide::f32x4;
+use super::factors::factor;
+use super::octet::Octet;
+use super::sources::{QueryGroup, relative};
+use crate::math::Floats;
 
-/// Coefficients of one cluster's field for queries near a point.
-pub struct Multipole {
+/// The series of one cluster for queries near a point.
+pub struct Multipole<'a> {
+    pub series: &'a Series,
     /// The centre, relative to that point.
-    center: QueryLanes,
-    radius: f32x4,
-    area: f32x4,
-    /// Factors of q_nm cos mφ and q_nm sin mφ in the order of [`factor`].
-    factors: [f32x4; COEFFICIENTS],
+    pub center: [f32; 3],
+    pub radius: f32,
 }
 
-/// Place of the factor for n and m: of the cosine, m = 0 … n, or, `sine` places later, of the sine.
-const fn factor(n: usize, m: usize, sine: bool) -> usize {
-    n * n - 1 + m + if sine { n } else { 0 }
-}
-
-impl Multipole {
-    #[inline]
-    pub fn new(series: &Series, center: [f32; 3], radius: f32, order: usize) -> Multipole {
-        let mut factors = [0.0f32; COEFFICIENTS];
-        let c = &series.coefficients;
-        factors[0..3].copy_from_slice(&[-c[2], -c[1], -c[0]]);
-        if order >= 1 {
-            let [c0, c2, s2] = quadratic([c[3], c[4], c[5]]);
-            set(&mut factors[3..8], 3.0, [c0, c[7], c2, c[6], s2]);
-        }
-        if order >= 2 {
-            let [c1, c3, s1, s3] = cubic([c[8], c[9], c[10], c[11]]);
-            let [c0, c2, s2] = quadratic([c[12], c[13], c[14]]);
-            set(&mut factors[8..15], -15.0, [c0, c1, c2, c3, s1, s2, s3]);
-        }
-        if order >= 3 {
-            let [c0, c2, c4, s2, s4] = quartic([c[15], c[16], c[17], c[18], c[19]]);
-            let [c1, c3, s1, s3] = cubic([c[20], c[21], c[22], c[23]]);
-            set(&mut factors[15..24], 105.0, [c0, c1, c2, c3, c4, s1, s2, s3, s4]);
-        }
-        let [x, y, z] = center;
-        let mut multipole = Multipole {
-            center: [f32x4::splat(x), f32x4::splat(y), f32x4::splat(z)],
-            radius: f32x4::splat(radius),
-            area: f32x4::splat(series.area),
-            factors: [f32x4::ZERO; COEFFICIENTS],
-        };
-        let used = place(order + 2, 0, 0) - 1;
-        multipole.factors.iter_mut().zip(&factors[..used]).for_each(|(lanes, f)| *lanes = f32x4::splat(*f));
-        multipole
-    }
-
-    /// The field at four queries, relative to the same point, of order `ORDER`.
+impl Multipole<'_> {
+    /// Adds the field of order `ORDER` at a part of a group of queries, relative to the same point.
     #[inline(always)]
-    pub fn at<const ORDER: usize>(&self, queries: &QueryLanes) -> f32x4 {
-        let splat = f32x4::splat;
-        let offset = [0, 1, 2].map(|i| queries[i] - self.center[i]);
-        let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
+    pub fn add<F: Floats<Number = f32>, const ORDER: usize>(
+        &self,
+        queries: &QueryGroup,
+        part: usize,
+        sums: &mut Octet,
+    ) {
+        let splat = F::splat;
+        let [x, y, z] = relative::<F>(queries, part, self.center);
+        let square = x * x + y * y + z * z;
         let inverse_square = splat(1.0) / square;
         let inverse = square.sqrt() * inverse_square;
-        let [x, y, z] = offset.map(|c| c * inverse);
-        let t = self.radius * inverse;
-        let c = |m: usize, n: usize| self.factors[factor(n, m, false)];
-        let s = |m: usize, n: usize| self.factors[factor(n, m, true)];
+        let (x, y, z) = (x * inverse, y * inverse, z * inverse);
+        let t = splat(self.radius) * inverse;
         // For each m the sum over n of t^(n−1) q_nm(z) times the coefficients, by Horner's scheme in t.
-        let mut zero = c(0, 1) * z;
-        let (mut cosine_1, mut sine_1) = (c(1, 1), s(1, 1));
-        let mut sum = f32x4::ZERO;
+        let mut zero = self.cosine::<F>(0, 1) * z;
+        let (mut cosine_1, mut sine_1) = (self.cosine::<F>(1, 1), self.sine::<F>(1, 1));
+        let mut sum = splat(0.0);
         if ORDER >= 1 {
             let tt = t * t;
             let (tz, zz) = (t * z, z * z);
             let q20 = (zz - splat(1.0 / 3.0)) * t;
-            zero += c(0, 2) * q20;
-            cosine_1 += c(1, 2) * tz;
-            sine_1 += s(1, 2) * tz;
+            zero = zero + self.cosine::<F>(0, 2) * q20;
+            cosine_1 = cosine_1 + self.cosine::<F>(1, 2) * tz;
+            sine_1 = sine_1 + self.sine::<F>(1, 2) * tz;
             let (xx_yy, xy) = (x * x - y * y, (x + x) * y);
-            let (mut cosine_2, mut sine_2) = (c(2, 2) * t, s(2, 2) * t);
+            let (mut cosine_2, mut sine_2) = (self.cosine::<F>(2, 2) * t, self.sine::<F>(2, 2) * t);
             if ORDER >= 2 {
                 let (q30, q31) = ((zz - splat(0.6)) * (tt * z), (zz - splat(0.2)) * tt);
                 let ttz = t * tz;
-                zero += c(0, 3) * q30;
-                cosine_1 += c(1, 3) * q31;
-                sine_1 += s(1, 3) * q31;
-                cosine_2 += c(2, 3) * ttz;
-                sine_2 += s(2, 3) * ttz;
+                zero = zero + self.cosine::<F>(0, 3) * q30;
+                cosine_1 = cosine_1 + self.cosine::<F>(1, 3) * q31;
+                sine_1 = sine_1 + self.sine::<F>(1, 3) * q31;
+                cosine_2 = cosine_2 + self.cosine::<F>(2, 3) * ttz;
+                sine_2 = sine_2 + self.sine::<F>(2, 3) * ttz;
                 let (re_3, im_3) = (xx_yy * x - xy * y, xx_yy * y + xy * x);
-                let (mut cosine_3, mut sine_3) = (c(3, 3) * tt, s(3, 3) * tt);
+                let (mut cosine_3, mut sine_3) = (self.cosine::<F>(3, 3) * tt, self.sine::<F>(3, 3) * tt);
                 if ORDER >= 3 {
                     let ttt = tt * t;
                     let tttz = ttt * z;
                     let q40 = (zz * (zz - splat(6.0 / 7.0)) + splat(3.0 / 35.0)) * ttt;
                     let q41 = (zz - splat(3.0 / 7.0)) * tttz;
                     let q42 = (zz - splat(1.0 / 7.0)) * ttt;
-                    zero += c(0, 4) * q40;
-                    cosine_1 += c(1, 4) * q41;
-                    sine_1 += s(1, 4) * q41;
-                    cosine_2 += c(2, 4) * q42;
-                    sine_2 += s(2, 4) * q42;
-                    cosine_3 += c(3, 4) * tttz;
-                    sine_3 += s(3, 4) * tttz;
+                    zero = zero + self.cosine::<F>(0, 4) * q40;
+                    cosine_1 = cosine_1 + self.cosine::<F>(1, 4) * q41;
+                    sine_1 = sine_1 + self.sine::<F>(1, 4) * q41;
+                    cosine_2 = cosine_2 + self.cosine::<F>(2, 4) * q42;
+                    sine_2 = sine_2 + self.sine::<F>(2, 4) * q42;
+                    cosine_3 = cosine_3 + self.cosine::<F>(3, 4) * tttz;
+                    sine_3 = sine_3 + self.sine::<F>(3, 4) * tttz;
                     let (re_4, im_4) = (xx_yy * xx_yy - xy * xy, (xx_yy + xx_yy) * xy);
-                    sum += (c(4, 4) * re_4 + s(4, 4) * im_4) * ttt;
+                    sum = sum + (self.cosine::<F>(4, 4) * re_4 + self.sine::<F>(4, 4) * im_4) * ttt;
                 }
-                sum += cosine_3 * re_3 + sine_3 * im_3;
+                sum = sum + cosine_3 * re_3 + sine_3 * im_3;
             }
-            sum += cosine_2 * xx_yy + sine_2 * xy;
+            sum = sum + cosine_2 * xx_yy + sine_2 * xy;
         }
-        sum += zero + (cosine_1 * x + sine_1 * y);
-        sum * (self.area * inverse_square)
+        sum = sum + zero + (cosine_1 * x + sine_1 * y);
+        sums.add(part, sum * (splat(self.series.area) * inverse_square));
     }
 
-    /// Whether all four queries are farther from the centre than `distance`.
+    /// The factor of q_nm cos mφ.
     #[inline(always)]
-    pub fn is_farther(center: &QueryLanes, queries: &QueryLanes, distance_squared: f32x4) -> bool {
-        let offset = [0, 1, 2].map(|i| queries[i] - center[i]);
-        let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
-        square.simd_gt(distance_squared).all()
+    fn cosine<F: Floats<Number = f32>>(&self, m: usize, n: usize) -> F {
+        F::splat(self.series.factors[factor(n, m, false)])
     }
-}
 
-fn set<const N: usize>(factors: &mut [f32], scale: f32, values: [f32; N]) {
-    factors.iter_mut().zip(values).for_each(|(factor, value)| *factor = scale * value);
-}
-
-// Homogeneous polynomials in x and y as factors of Re ξ^m z^(n−m), then of Im ξ^m z^(n−m), m of the parity of n.
-
-fn quadratic([yy, xy, xx]: [f32; 3]) -> [f32; 3] {
-    [-0.5 * (xx + yy), 0.5 * (xx - yy), 0.5 * xy]
-}
-
-fn cubic([yyy, xyy, xxy, xxx]: [f32; 4]) -> [f32; 4] {
-    [-0.75 * xxx - 0.25 * xyy, 0.25 * (xxx - xyy), -0.25 * xxy - 0.75 * yyy, 0.25 * (xxy - yyy)]
-}
-
-fn quartic([y4, xy3, x2y2, x3y, x4]: [f32; 5]) -> [f32; 5] {
-    [
-        0.375 * (x4 + y4) + 0.125 * x2y2,
-        0.5 * (y4 - x4),
-        0.125 * (x4 + y4 - x2y2),
-        -0.25 * (x3y + xy3),
-        0.125 * (x3y - xy3),
-    ]
+    /// The factor of q_nm sin mφ.
+    #[inline(always)]
+    fn sine<F: Floats<Number = f32>>(&self, m: usize, n: usize) -> F {
+        F::splat(self.series.factors[factor(n, m, true)])
+    }
 }
 
 #[cfg(test)]
@@ -158,16 +99,18 @@ mod tests {
     use crate::treecode::dual::clusters::Clusters;
     use crate::treecode::dual::sources::tests::{Dipoles, random};
     use std::f64::consts::PI;
+    use wide::f32x4;
 
     fn value(multipole: &Multipole, q: Vec3, order: usize) -> f64 {
-        let query = q.to_array().map(|x| f32x4::splat(x as f32));
-        let lanes = match order {
-            0 => multipole.at::<0>(&query),
-            1 => multipole.at::<1>(&query),
-            2 => multipole.at::<2>(&query),
-            _ => multipole.at::<3>(&query),
+        let query = q.to_array().map(|x| Octet([x as f32; 8]));
+        let mut sums = Octet::ZERO;
+        match order {
+            0 => multipole.add::<f32x4, 0>(&query, 4, &mut sums),
+            1 => multipole.add::<f32x4, 1>(&query, 4, &mut sums),
+            2 => multipole.add::<f32x4, 2>(&query, 4, &mut sums),
+            _ => multipole.add::<f32x4, 3>(&query, 4, &mut sums),
         };
-        f64::from(lanes.to_array()[1])
+        f64::from(sums.0[5])
     }
 
     #[test]
@@ -187,7 +130,7 @@ mod tests {
             let center = Vec3::new(f64::from(ball[0]), f64::from(ball[1]), f64::from(ball[2]));
             let local = clusters.frame.local(q);
             let offset = (center - local).to_array().map(|x| x as f32);
-            let multipole = Multipole::new(&clusters.series[0], offset, ball[3], order);
+            let multipole = Multipole { series: &clusters.series[0], center: offset, radius: ball[3] };
             let error = (value(&multipole, Vec3::ZERO, order) - sum).abs();
             let [area, radius, distance, spread] = [
                 clusters.series[0].area,

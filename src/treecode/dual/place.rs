@@ -1,5 +1,7 @@
 use super::clusters::Ball;
-use super::{GROUPS, QueryBlock, QueryLanes, WIDTH};
+use super::octet::Octet;
+use super::{GROUPS, QueryBlock, WIDTH};
+use crate::data::BLOCK;
 use crate::math::{Aabb, Vec3};
 use crate::treecode::frame::Frame;
 use wide::{f32x4, f64x4};
@@ -43,7 +45,7 @@ impl Place {
 
     /// The centre relative to those of four clusters, and their radii.
     #[inline(always)]
-    pub fn relative_to(&self, balls: [&Ball; WIDTH]) -> ([f32x4; 3], f32x4) {
+    pub fn relative_to(&self, balls: [&Ball; 4]) -> ([f32x4; 3], f32x4) {
         let [a, b, c, d] = balls;
         let rows = [f32x4::from(*a), f32x4::from(*b), f32x4::from(*c), f32x4::from(*d)];
         let [x, y, z, radius] = f32x4::transpose(rows);
@@ -61,61 +63,73 @@ fn near(frame: &Frame, p: Vec3) -> Vec3 {
     frame.local(p).clamp(Vec3::splat(-HORIZON), Vec3::splat(HORIZON))
 }
 
+fn is_within(frame: &Frame, p: Vec3) -> bool {
+    frame.local(p).abs().max_element() <= HORIZON
+}
+
 /// The queries of a block as the near and the far field want them.
 pub struct Block {
     pub queries: QueryBlock,
-    /// Positions relative to the block's centre, in units of its radius.
-    pub scaled: [QueryLanes; GROUPS],
     /// Queries beyond the horizon, one bit each.
     pub beyond: u64,
 }
 
 impl Default for Block {
     fn default() -> Self {
+        let groups = [[Octet::ZERO; 3]; GROUPS];
         let queries = QueryBlock {
-            positions: [[f64x4::ZERO; 3]; GROUPS],
+            positions: [[f64x4::ZERO; 3]; BLOCK / 4],
             center: Vec3::ZERO,
-            offsets: [[f32x4::ZERO; 3]; GROUPS],
+            offsets: groups,
             scale: 1.0,
             reach: 0.0,
             groups: 0,
+            middles: [Octet::ZERO; 3],
+            halves: [Octet::ZERO; 3],
         };
-        Block { queries, scaled: [[f32x4::ZERO; 3]; GROUPS], beyond: 0 }
+        Block { queries, beyond: 0 }
     }
 }
 
+/// What a group's box is enlarged by for rounding, in radii of the block.
+const BOX_ROUNDING: f32 = 1e-6;
+
 impl Block {
-    /// Takes the queries of another block. Lanes without a query are put in the middle.
+    /// Takes the queries of another block.
     pub fn set(&mut self, points: &[Vec3], bounds: &Aabb, place: &Place, frame: &Frame) {
         let center = bounds.center();
-        self.queries.center = center;
-        self.queries.scale = frame.scale;
-        self.queries.reach = place.radius;
-        self.queries.groups = points.len().div_ceil(WIDTH);
+        let queries = &mut self.queries;
+        queries.center = center;
+        queries.scale = frame.scale;
+        queries.reach = place.radius;
+        queries.groups = points.len().div_ceil(WIDTH);
         self.beyond = 0;
-        let inverse = f32x4::splat(1.0 / place.radius);
-        for (g, four) in points.chunks(WIDTH).enumerate() {
-            let at = |k: usize| *four.get(k).unwrap_or(&center);
-            let four = [at(0), at(1), at(2), at(3)];
-            let local = |k: usize| near(frame, four[k]) - place.center;
-            let local = [local(0), local(1), local(2), local(3)];
+        let all_are_within = is_within(frame, bounds.min) && is_within(frame, bounds.max);
+        for (g, group) in points.chunks(WIDTH).enumerate() {
+            let at: [Vec3; WIDTH] = std::array::from_fn(|k| *group.get(k).unwrap_or(&group[0]));
+            let clamped = |p: Vec3| if all_are_within { frame.local(p) } else { near(frame, p) };
+            let local = at.map(|p| clamped(p) - place.center);
             for axis in 0..3 {
-                let [a, b, c, d] = &four;
-                self.queries.positions[g][axis] = f64x4::from([a[axis], b[axis], c[axis], d[axis]]);
-                let [a, b, c, d] = &local;
-                let offset = [a[axis] as f32, b[axis] as f32, c[axis] as f32, d[axis] as f32];
-                self.queries.offsets[g][axis] = f32x4::from(offset);
-                self.scaled[g][axis] = f32x4::from(offset) * inverse;
+                let [a, b, c, d, e, f, g_, h] = at.map(|p| p[axis]);
+                queries.positions[2 * g][axis] = f64x4::from([a, b, c, d]);
+                queries.positions[2 * g + 1][axis] = f64x4::from([e, f, g_, h]);
+                let offsets = local.map(|p| p[axis] as f32);
+                queries.offsets[g][axis] = Octet(offsets);
+                let least = offsets.into_iter().fold(f32::INFINITY, f32::min);
+                let most = offsets.into_iter().fold(f32::NEG_INFINITY, f32::max);
+                queries.middles[axis].0[g] = 0.5 * (least + most);
+                queries.halves[axis].0[g] = 0.5 * (most - least) + BOX_ROUNDING * place.radius;
             }
-            for (k, p) in four.into_iter().enumerate() {
-                let is_beyond = frame.local(p).abs().max_element() > HORIZON;
-                self.beyond |= u64::from(is_beyond) << (WIDTH * g + k);
+            if !all_are_within {
+                for (k, p) in group.iter().enumerate() {
+                    self.beyond |= u64::from(!is_within(frame, *p)) << (WIDTH * g + k);
+                }
             }
         }
     }
 
     /// One bit for each group.
     pub fn all(&self) -> u32 {
-        ((1u64 << self.queries.groups) - 1) as u32
+        (1 << self.queries.groups) - 1
     }
 }

@@ -1,25 +1,63 @@
-use super::{GROUPS, SourceKind};
+use super::octet::{Octet, parts};
+use super::{GROUPS, SourceKind, WIDTH};
 use crate::data::BLOCK;
-use crate::math::Vec3;
+use crate::math::{Floats, Vec3};
+use crate::treecode::Lanes;
 use std::panic::RefUnwindSafe;
-use wide::{f32x4, f64x4};
 
-/// Coordinates of four queries near the middle of their block.
-pub type QueryLanes = [f32x4; 3];
+/// Coordinates of eight queries near the middle of their block.
+pub type QueryGroup = [Octet; 3];
 
-/// Up to 64 queries that lie close together, four in each group; lanes without a query are in the middle.
+/// Up to 64 queries that lie close together, eight in each group; places without a query repeat the first of their group.
 #[derive(Clone)]
 pub struct QueryBlock {
-    pub positions: [[f64x4; 3]; GROUPS],
+    /// Of four queries each.
+    pub positions: [Lanes; BLOCK / 4],
     /// A point amid the queries.
     pub center: Vec3,
     /// Positions relative to the centre, times `scale`, which makes the sources about as large as 1.
-    pub offsets: [QueryLanes; GROUPS],
+    pub offsets: [QueryGroup; GROUPS],
     pub scale: f64,
     /// A bound of the lengths of the offsets.
     pub reach: f32,
     /// Groups with a query, the first ones.
     pub groups: usize,
+    /// Boxes around the offsets of the groups, one in each lane: their middles and half their edges.
+    pub middles: [Octet; 3],
+    pub halves: [Octet; 3],
+}
+
+impl QueryBlock {
+    /// The groups all of whose queries are farther from a place than a distance, a bit for each.
+    #[inline(always)]
+    pub fn groups_beyond<F: Floats<Number = f32>>(&self, place: [f32; 3], distance_squared: f32) -> u32 {
+        const { assert!(GROUPS == WIDTH) };
+        let mut groups = 0;
+        for part in parts::<F>() {
+            let x = self.gap::<F>(0, part, place[0]);
+            let y = self.gap::<F>(1, part, place[1]);
+            let z = self.gap::<F>(2, part, place[2]);
+            groups |= (x * x + y * y + z * z).greater(F::splat(distance_squared)) << part;
+        }
+        groups
+    }
+
+    /// How far a place is from the boxes around some of the groups, along an axis.
+    #[inline(always)]
+    fn gap<F: Floats<Number = f32>>(&self, axis: usize, part: usize, place: f32) -> F {
+        let from_middle = (self.middles[axis].get::<F>(part) - F::splat(place)).abs();
+        (from_middle - self.halves[axis].get(part)).max(F::splat(0.0))
+    }
+}
+
+/// The queries of a part of a group, relative to a place.
+#[inline(always)]
+pub fn relative<F: Floats<Number = f32>>(queries: &QueryGroup, part: usize, place: [f32; 3]) -> [F; 3] {
+    [
+        queries[0].get::<F>(part) - F::splat(place[0]),
+        queries[1].get::<F>(part) - F::splat(place[1]),
+        queries[2].get::<F>(part) - F::splat(place[2]),
+    ]
 }
 
 /// A kind of source for a [`super::DualTree`]: what its far field is made of and how its near field is summed. A panic leaves
@@ -36,10 +74,18 @@ pub trait Sources: Send + Sync + RefUnwindSafe {
     /// Area times normal.
     fn area_vector(&self, index: usize) -> Vec3;
 
-    /// A bound of the error that [`Sources::add`] makes for one source at one query.
+    /// A bound of the rounding error that [`Sources::add`] makes for one source at one query.
     fn rounding(&self) -> f64;
-    /// Adds the fields of the sources `near` a block to the `values` at its queries.
-    fn add(&self, near: &[NearLeaf], items: &[u32], queries: &QueryBlock, values: &mut [f64; BLOCK]);
+    /// Adds the fields of the sources `near` a block to the `values` at its queries, each with an error of up to `error` and
+    /// its rounding.
+    fn add(
+        &self,
+        near: &[NearLeaf],
+        items: &[u32],
+        queries: &QueryBlock,
+        error: f32,
+        values: &mut [f64; BLOCK],
+    );
 }
 
 /// Sources that act singly on some queries of a block.
@@ -58,14 +104,21 @@ impl NearLeaf {
     }
 
     /// The groups of queries that the sources act on.
+    #[inline(always)]
     pub fn groups(&self) -> impl Iterator<Item = usize> + use<> {
-        let mut rest = self.wanted;
-        std::iter::from_fn(move || {
-            let lowest = (rest != 0).then(|| rest.trailing_zeros() as usize);
-            rest &= rest.wrapping_sub(1);
-            lowest
-        })
+        groups_of(self.wanted)
     }
+}
+
+/// The groups whose bits are set.
+#[inline(always)]
+pub fn groups_of(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        // Within the block, as the compiler sees with this.
+        let lowest = (bits != 0).then(|| bits.trailing_zeros() as usize % GROUPS);
+        bits &= bits.wrapping_sub(1);
+        lowest
+    })
 }
 
 #[cfg(test)]
@@ -96,7 +149,7 @@ pub mod tests {
             0.0
         }
 
-        fn add(&self, _: &[NearLeaf], _: &[u32], _: &QueryBlock, _: &mut [f64; BLOCK]) {}
+        fn add(&self, _: &[NearLeaf], _: &[u32], _: &QueryBlock, _: f32, _: &mut [f64; BLOCK]) {}
     }
 
     /// Numbers in [−1, 1).

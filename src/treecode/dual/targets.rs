@@ -22,6 +22,13 @@ pub trait Targets: Sync {
     fn split(&self, block: &Cells, child: &mut dyn FnMut(Cells));
     /// Calls `sample(index, position)` for each query of a block, neighbours after each other.
     fn for_each(&self, block: &Cells, sample: &mut dyn FnMut(usize, Vec3));
+    /// Appends indices and positions of the queries of a block.
+    fn gather(&self, block: &Cells, indices: &mut Vec<usize>, points: &mut Vec<Vec3>) {
+        self.for_each(block, &mut |index, position| {
+            indices.push(index);
+            points.push(position);
+        });
+    }
     /// Indices of queries that are not finite, and in no block.
     fn outcasts(&self) -> &[u32];
 
@@ -87,6 +94,19 @@ impl LatticeTargets {
             block[axis].start * self.unit[axis]..end
         })
     }
+
+    /// Calls `sample` for the samples of a block of up to [`BLOCK`].
+    fn each_of_unit(&self, [xs, ys, zs]: [Range<usize>; 3], mut sample: impl FnMut(usize, Vec3)) {
+        let first = self.lattice.index([xs.start, ys.start, zs.start]);
+        let [along_y, along_z] = [self.lattice.counts[0], self.lattice.counts[0] * self.lattice.counts[1]];
+        for place in self.order {
+            let [i, j, k] = place.map(usize::from);
+            let s = [xs.start + i, ys.start + j, zs.start + k];
+            if s[0] < xs.end && s[1] < ys.end && s[2] < zs.end {
+                sample(first + i + j * along_y + k * along_z, self.lattice.point(s));
+            }
+        }
+    }
 }
 
 impl Targets for LatticeTargets {
@@ -131,22 +151,26 @@ impl Targets for LatticeTargets {
     }
 
     fn for_each(&self, block: &Cells, sample: &mut dyn FnMut(usize, Vec3)) {
-        let mut give = |s: [usize; 3]| sample(self.lattice.index(s), self.lattice.point(s));
         let [xs, ys, zs] = self.samples(block);
         if block.iter().all(|r| r.len() == 1) {
-            for [i, j, k] in self.order {
-                let s = [xs.start + usize::from(i), ys.start + usize::from(j), zs.start + usize::from(k)];
-                if s[0] < xs.end && s[1] < ys.end && s[2] < zs.end {
-                    give(s);
-                }
-            }
-            return;
+            return self.each_of_unit([xs, ys, zs], sample);
         }
         for k in zs {
             for j in ys.clone() {
-                xs.clone().for_each(|i| give([i, j, k]));
+                xs.clone().for_each(|i| sample(self.lattice.index([i, j, k]), self.lattice.point([i, j, k])));
             }
         }
+    }
+
+    fn gather(&self, block: &Cells, indices: &mut Vec<usize>, points: &mut Vec<Vec3>) {
+        let mut take = |index: usize, position: Vec3| {
+            indices.push(index);
+            points.push(position);
+        };
+        if block.iter().all(|r| r.len() == 1) {
+            return self.each_of_unit(self.samples(block), take);
+        }
+        self.for_each(block, &mut take);
     }
 
     fn outcasts(&self) -> &[u32] {

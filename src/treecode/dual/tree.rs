@@ -23,6 +23,18 @@ pub enum Outcome<'a> {
     Within { low: f64, high: f64 },
 }
 
+/// What is to be proved beside the evaluation.
+#[derive(Clone, Copy)]
+pub enum Proof<'a> {
+    /// Nothing: all bounds are infinite.
+    Nothing,
+    /// Bounds of the errors of values.
+    Bounds,
+    /// The same, and for blocks that is asked about, that the field there lies between two numbers: the walk does not go
+    /// below those for which this is enough.
+    Decisions(Decided<'a>),
+}
+
 /// Asked, on any thread, for blocks over which the field is proved to lie between two numbers: whether that is enough.
 pub type Decided<'a> = &'a (dyn Fn(&BlockView<'_>, f64, f64) -> bool + Sync);
 
@@ -46,7 +58,7 @@ impl DualTree {
 
     /// Evaluates the field at all `targets`, block by block, in parallel, and gives each block's outcome with the indices
     /// of its queries to `store`, on the calling thread and in a fixed order. The values are the same bits whatever the
-    /// number of threads; NaN where a query is not finite. The walk does not go below blocks that are `decided`.
+    /// number of threads; NaN where a query is not finite.
     ///
     /// # Errors
     /// If and only if the monitor cancels.
@@ -55,7 +67,7 @@ impl DualTree {
         targets: &dyn Targets,
         accuracy: &DualAccuracy,
         monitor: &dyn Monitor,
-        decided: Option<Decided<'_>>,
+        proof: Proof<'_>,
         store: &mut dyn FnMut(&[usize], Outcome<'_>),
     ) -> Result<(), Cancelled> {
         const STAGE: &str = "winding numbers";
@@ -66,7 +78,8 @@ impl DualTree {
             sources: &*self.sources,
             targets,
             accuracy,
-            decided,
+            decided: if let Proof::Decisions(decided) = proof { Some(decided) } else { None },
+            is_bounded: !matches!(proof, Proof::Nothing),
         };
         let tasks = targets.tasks();
         let mut indices = Vec::new();
@@ -88,17 +101,20 @@ fn give(
     indices: &mut Vec<usize>,
     store: &mut dyn FnMut(&[usize], Outcome<'_>),
 ) {
-    let mut rest = &findings.values[..];
+    let (mut values, mut places) = (&findings.values[..], &findings.indices[..]);
     for (block, finding) in findings.blocks {
-        indices.clear();
-        targets.for_each(&block, &mut |index, _| indices.push(index));
         match finding {
             Finding::Values { bound } => {
-                let (values, others) = rest.split_at(indices.len());
-                rest = others;
-                store(indices, Outcome::Values { values, bound });
+                let (own, others) = values.split_at(targets.len(&block));
+                let (own_places, other_places) = places.split_at(own.len());
+                (values, places) = (others, other_places);
+                store(own_places, Outcome::Values { values: own, bound });
             }
-            Finding::Within { low, high } => store(indices, Outcome::Within { low, high }),
+            Finding::Within { low, high } => {
+                indices.clear();
+                targets.for_each(&block, &mut |index, _| indices.push(index));
+                store(indices, Outcome::Within { low, high });
+            }
         }
     }
 }

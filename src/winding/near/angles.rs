@@ -1,47 +1,42 @@
+use crate::math::Floats;
+use crate::treecode::Octet;
 use std::f64::consts::TAU;
-use wide::{f32x4, i32x4};
+use wide::f32x4;
 
-/// Sums of half solid angles at four queries, kept as products of complex numbers with those arguments, and the number of
+/// Sums of half solid angles at eight queries, kept as products of complex numbers with those arguments, and the number of
 /// times each product went around: one arctangent for a query instead of one for each triangle.
 #[derive(Clone, Copy)]
 pub struct Angles {
-    real: f32x4,
-    imaginary: f32x4,
-    wraps: i32x4,
+    real: Octet,
+    imaginary: Octet,
+    wraps: Octet,
 }
 
-/// The exponent of a 32-bit float, and twice its bias.
-const EXPONENT: i32x4 = i32x4::new([0x7f80_0000; 4]);
-const TWICE_BIAS: i32x4 = i32x4::new([0x7f00_0000; 4]);
-const ONE: i32x4 = i32x4::new([1; 4]);
-
 impl Angles {
-    pub const ZERO: Angles =
-        Angles { real: f32x4::new([1.0; 4]), imaginary: f32x4::new([0.0; 4]), wraps: i32x4::new([0; 4]) };
+    pub const ZERO: Angles = Angles { real: Octet([1.0; 8]), imaginary: Octet::ZERO, wraps: Octet::ZERO };
 
-    /// Adds the arguments of `real + i·imaginary`. An imaginary part of 0 must come with a positive real one.
+    /// Adds the arguments of `real + i·imaginary` to a part of the sums. An imaginary part of 0 must come with a positive real
+    /// one: arguments are less than half a turn.
     #[inline(always)]
-    pub fn add(&mut self, real: f32x4, imaginary: f32x4) {
-        let new_real = self.real * real - self.imaginary * imaginary;
-        let new_imaginary = self.real * imaginary + self.imaginary * real;
-        let bits = |x: f32x4| -> i32x4 { wide::bytemuck::cast(x) };
-        let (old, turn, new) = (bits(self.imaginary), bits(imaginary), bits(new_imaginary));
-        // Signs are in the highest bits: upper half-plane turned by a positive angle into the lower one is past π; its
-        // mirror, past −π.
-        let past: i32x4 = ((old ^ new) & !(old ^ turn)) >> 31;
-        // +1 where the new sign is negative, −1 where it is positive.
-        self.wraps += past & ((!new >> 31) | ONE);
-        let size = bits(new_real.abs() + new_imaginary.abs());
-        // 2⁻ᵉ for an exponent e: it keeps products from overflowing and rounds nothing.
-        let scale: f32x4 = wide::bytemuck::cast(TWICE_BIAS - (size & EXPONENT));
-        self.real = new_real * scale;
-        self.imaginary = new_imaginary * scale;
+    pub fn add<F: Floats<Number = f32>>(&mut self, part: usize, real: F, imaginary: F) {
+        let (x, y): (F, F) = (self.real.get(part), self.imaginary.get(part));
+        let (new_x, new_y) = (x * real - y * imaginary, x * imaginary + y * real);
+        // Out of the upper half-plane into the lower one by a positive angle is past π; back by a negative one, past −π.
+        let quarter = F::splat(0.25);
+        let passed = y.with_signs_on(quarter) - new_y.with_signs_on(quarter);
+        self.wraps.add(part, passed + imaginary.with_signs_on(passed.abs()));
+        // It keeps products from overflowing and rounds nothing.
+        let scale = (new_x.abs() + new_y.abs()).reciprocal_power_of_two();
+        self.real.put(part, new_x * scale);
+        self.imaginary.put(part, new_y * scale);
     }
 
     /// The winding numbers: the sums of half solid angles over 2π.
-    pub fn turns(&self) -> [f64; 4] {
-        let (angles, wraps) = (self.imaginary.atan2(self.real).to_array(), self.wraps.to_array());
-        std::array::from_fn(|k| f64::from(angles[k]) / TAU + f64::from(wraps[k]))
+    pub fn turns(&self) -> [f64; 8] {
+        let half = |octet: &Octet, first: usize| -> f32x4 { octet.get(first) };
+        let angles = |first: usize| half(&self.imaginary, first).atan2(half(&self.real, first)).to_array();
+        let halves = [angles(0), angles(4)];
+        std::array::from_fn(|k| f64::from(halves[k / 4][k % 4]) / TAU + f64::from(self.wraps.0[k]))
     }
 }
 
@@ -58,9 +53,9 @@ mod tests {
             let turned = steps.map(|s| s * (0.3 + 0.7 * f64::from(i % 5) / 4.0));
             let length = 10f64.powi(i % 9 - 4);
             let lanes = |f: fn(f64) -> f64| f32x4::from(turned.map(|t| (length * f(t)) as f32));
-            sums.add(lanes(f64::cos), lanes(f64::sin));
+            sums.add(4, lanes(f64::cos), lanes(f64::sin));
             expected.iter_mut().zip(turned).for_each(|(e, t)| *e += t / TAU);
-            for (value, expected) in sums.turns().into_iter().zip(expected) {
+            for (value, expected) in sums.turns()[4..].iter().zip(expected) {
                 assert!((value - expected).abs() < 1e-5, "step {i}: {value} instead of {expected}");
             }
         }

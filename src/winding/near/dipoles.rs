@@ -1,10 +1,11 @@
-//! Dipoles near a block of queries, four queries at a time.
-use crate::bvh::WIDTH;
+//! Dipoles near a block of queries.
+use super::{GROUP, LANES, single};
 use crate::data::{BLOCK, OrientedCloud};
-use crate::math::Vec3;
-use crate::treecode::{GROUPS, Lanes, NearLeaf, QueryBlock, SourceKind, Sources};
+use crate::math::{Floats, Registers, Vec3, Work, in_widest_registers};
+use crate::treecode::{
+    GROUPS, NearLeaf, Octet, QueryBlock, QueryGroup, SourceKind, Sources, parts, relative,
+};
 use std::f64::consts::PI;
-use wide::{f32x4, f64x4};
 
 impl Sources for OrientedCloud {
     fn len(&self) -> usize {
@@ -27,39 +28,70 @@ impl Sources for OrientedCloud {
         DIPOLE_ROUNDING
     }
 
-    fn add(&self, near: &[NearLeaf], items: &[u32], queries: &QueryBlock, values: &mut [f64; BLOCK]) {
-        let mut sums = [f64x4::ZERO; GROUPS];
-        for leaf in near {
-            for &i in leaf.members(items) {
-                let (point, vector) = (self.points()[i as usize], Sources::area_vector(self, i as usize));
-                let dipole = Dipole32::new(point, vector, queries);
-                for group in leaf.groups() {
-                    sums[group] += match dipole.field(&queries.offsets[group]) {
-                        Some(field) => widened(field),
-                        None => precise_dipole(point, vector, &queries.positions[group]),
-                    };
-                }
-            }
-        }
-        for (values, sum) in values.chunks_mut(WIDTH).zip(sums) {
-            values.iter_mut().zip(sum.to_array()).for_each(|(value, s)| *value += s / (4.0 * PI));
-        }
+    fn add(
+        &self,
+        near: &[NearLeaf],
+        items: &[u32],
+        queries: &QueryBlock,
+        _error: f32,
+        values: &mut [f64; BLOCK],
+    ) {
+        in_widest_registers(Dipoles { cloud: self, near, items, queries, values });
     }
 }
 
-#[inline(always)]
-fn widened(lanes: f32x4) -> f64x4 {
-    let [a, b, c, d] = lanes.to_array();
-    f64x4::new([f64::from(a), f64::from(b), f64::from(c), f64::from(d)])
+/// The work of [`Sources::add`].
+struct Dipoles<'a> {
+    cloud: &'a OrientedCloud,
+    near: &'a [NearLeaf],
+    items: &'a [u32],
+    queries: &'a QueryBlock,
+    values: &'a mut [f64; BLOCK],
 }
 
-/// A dipole near a block of queries, relative to its centre, in all lanes. Its offset from a query is known to about ε L, ε = 2⁻²⁴
-/// and L a bound of the lengths of both, and its field |v|/d² to about 6 ε L |v|/d³.
-struct Dipole32 {
-    point: [f32x4; 3],
-    vector: [f32x4; 3],
-    /// What d³ must exceed.
-    least: f32x4,
+impl Work for Dipoles<'_> {
+    #[inline(always)]
+    fn run<R: Registers>(self) {
+        let Dipoles { cloud, near, items, queries, values } = self;
+        let mut sums = [Octet::ZERO; GROUPS];
+        for leaf in near {
+            for &i in leaf.members(items) {
+                let (point, vector) = (cloud.points()[i as usize], cloud.area_vector(i as usize));
+                let dipole = Dipole::new(point, vector, queries);
+                let least = <R::Singles as Floats>::splat(dipole.least(queries.reach));
+                for group in leaf.groups() {
+                    for part in parts::<R::Singles>() {
+                        let (mut field, cube) = dipole.field::<R::Singles>(&queries.offsets[group], part);
+                        let (safe, all) = (cube.greater(least), (1 << R::Singles::COUNT) - 1);
+                        if safe != all {
+                            let mut fields = Octet::ZERO;
+                            fields.put(part, field);
+                            let lanes = (!safe & all) << part;
+                            add_precisely([point, vector], queries, (group, lanes), &mut fields, values);
+                            field = fields.get(part);
+                        }
+                        sums[group].add(part, field);
+                    }
+                }
+            }
+        }
+        add_fields(&sums, values);
+    }
+}
+
+/// Adds sums of 4π times winding numbers to values.
+pub fn add_fields(sums: &[Octet; GROUPS], values: &mut [f64; BLOCK]) {
+    for (values, sum) in values.chunks_mut(GROUP).zip(sums) {
+        values.iter_mut().zip(sum.0).for_each(|(value, s)| *value += f64::from(s) * (1.0 / (4.0 * PI)));
+    }
+}
+
+/// A dipole near a block of queries, relative to its centre. Its offset from a query is known to about ε L, ε = 2⁻²⁴ and L a
+/// bound of the lengths of both, and its field |v|/d² to about 6 ε L |v|/d³.
+#[derive(Clone, Copy, Default)]
+pub struct Dipole {
+    pub point: [f32; 3],
+    pub vector: [f32; 3],
 }
 
 /// 6 ε / 4π over the error that is allowed.
@@ -68,35 +100,54 @@ const LEAST_CUBE: f32 = 0.029;
 const LEAST_OFFSET: f32 = 4e-6;
 const DIPOLE_ROUNDING: f64 = 1e-6;
 
-impl Dipole32 {
+impl Dipole {
     #[inline(always)]
-    fn new(point: Vec3, vector: Vec3, queries: &QueryBlock) -> Dipole32 {
+    fn new(point: Vec3, vector: Vec3, queries: &QueryBlock) -> Dipole {
         let point = queries.scale * (point - queries.center);
         let vector = queries.scale * queries.scale * vector;
-        let splat = |v: Vec3| [f32x4::splat(v.x as f32), f32x4::splat(v.y as f32), f32x4::splat(v.z as f32)];
-        let length = point.length() as f32 + queries.reach;
-        let least = (LEAST_CUBE * length * vector.length() as f32).max((LEAST_OFFSET * length).powi(3));
-        Dipole32 { point: splat(point), vector: splat(vector), least: f32x4::splat(least) }
+        Dipole { point: single(point), vector: single(vector) }
     }
 
-    /// 4π times the winding numbers; none where a lane might be wrong.
+    /// What d³ must exceed.
     #[inline(always)]
-    fn field(&self, q: &[f32x4; 3]) -> Option<f32x4> {
-        let [x, y, z] = [self.point[0] - q[0], self.point[1] - q[1], self.point[2] - q[2]];
+    fn least(&self, reach: f32) -> f32 {
+        let size = |[x, y, z]: [f32; 3]| (x * x + y * y + z * z).sqrt();
+        let length = size(self.point) + reach;
+        let nearest = LEAST_OFFSET * length;
+        (LEAST_CUBE * length * size(self.vector)).max(nearest * nearest * nearest)
+    }
+
+    /// 4π times the winding numbers at a part of a group, and the distances' cubes.
+    #[inline(always)]
+    pub fn field<F: Floats<Number = f32>>(&self, queries: &QueryGroup, part: usize) -> (F, F) {
+        let [x, y, z] = relative::<F>(queries, part, self.point);
+        let [vx, vy, vz] = self.vector;
+        let (vx, vy, vz) = (F::splat(-vx), F::splat(-vy), F::splat(-vz));
         let square = x * x + y * y + z * z;
         let cube = square * square.sqrt();
-        let field = (x * self.vector[0] + y * self.vector[1] + z * self.vector[2]) / cube;
-        cube.simd_gt(self.least).all().then_some(field)
+        ((x * vx + y * vy + z * vz) / cube, cube)
     }
 }
 
-/// A dipole at a query adds nothing.
+/// Moves the fields of a dipole in some lanes of a group from there to the values, computed in 64 bits. A dipole at a query
+/// adds nothing.
 #[cold]
 #[inline(never)]
-fn precise_dipole(point: Vec3, vector: Vec3, q: &Lanes) -> f64x4 {
-    let [x, y, z] = [0, 1, 2].map(|axis| f64x4::splat(point[axis]) - q[axis]);
-    let square = x * x + y * y + z * z;
-    let [vx, vy, vz] = vector.to_array().map(f64x4::splat);
-    let field = (x * vx + y * vy + z * vz) / (square * square.sqrt());
-    square.simd_gt(f64x4::ZERO) & field
+fn add_precisely(
+    [point, vector]: [Vec3; 2],
+    queries: &QueryBlock,
+    (group, lanes): (usize, u32),
+    fields: &mut Octet,
+    values: &mut [f64; BLOCK],
+) {
+    for lane in (0..GROUP).filter(|lane| lanes >> lane & 1 == 1) {
+        let index = GROUP * group + lane;
+        let q = [0, 1, 2].map(|axis| queries.positions[index / LANES][axis].to_array()[index % LANES]);
+        let offset = point - Vec3::from_array(q);
+        let square = offset.length_squared();
+        fields.0[lane] = 0.0;
+        if square > 0.0 {
+            values[index] += offset.dot(vector) / (square * square.sqrt() * 4.0 * PI);
+        }
+    }
 }
