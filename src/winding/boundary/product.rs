@@ -236,7 +236,7 @@ impl<T: Number> RowWork<'_, T> {
                 let mut few = [Few::default(); SEVERAL];
                 for (row, few) in few.iter_mut().enumerate().take(together) {
                     rows.set_beside(0, grid[v][j + row], unit);
-                    rows.set_edges(row, T::of(sign));
+                    rows.set_edges::<F>(row, T::of(sign));
                     few.row = row;
                     few.place = (j + row) * strides[v] + k * strides[w] + region[u].start * strides[u];
                 }
@@ -314,7 +314,7 @@ impl<T: Number> Rows<T> {
             across.extend(points.iter().map(|p| p[(u + 1 + side) % 3]));
         }
         let parts = self.edges.iter_mut().flat_map(|e| [&mut e.squared, &mut e.real, &mut e.imaginary]);
-        parts.chain(&mut self.beside).for_each(|part| part.resize(points.len(), T::default()));
+        parts.chain(&mut self.beside).for_each(|part| part.resize(points.len() + MOST, T::default()));
     }
 
     #[inline(always)]
@@ -324,18 +324,19 @@ impl<T: Number> Rows<T> {
     }
 
     #[inline(always)]
-    fn set_edges(&mut self, row: usize, sign: T) {
-        let [v, w] = self.beside.each_ref().map(|b| &b[..]);
+    fn set_edges<F: Floats<Number = T>>(&mut self, row: usize, sign: T) {
+        let (v, w) = (&self.beside[0][..], &self.beside[1][..]);
         let Edges { squared, real, imaginary } = &mut self.edges[row];
-        let last = v.len() - 1;
         squared[0] = v[0] * v[0] + w[0] * w[0];
-        let (av, aw, bv, bw) = (&v[..last], &w[..last], &v[1..][..last], &w[1..][..last]);
-        let (squared, real, imaginary) =
-            (&mut squared[1..][..last], &mut real[1..][..last], &mut imaginary[1..][..last]);
-        for k in 0..last {
-            squared[k] = bv[k] * bv[k] + bw[k] * bw[k];
-            real[k] = av[k] * bv[k] + aw[k] * bw[k];
-            imaginary[k] = sign * (av[k] * bw[k] - aw[k] * bv[k]);
+        let sign = F::splat(sign);
+        // Beyond the last edge there is room, of which nothing is used.
+        for a in (0..self.along.len() - 1).step_by(F::COUNT) {
+            let b = a + 1;
+            let (av, aw) = (F::load(&v[a..]), F::load(&w[a..]));
+            let (bv, bw) = (F::load(&v[b..]), F::load(&w[b..]));
+            (bv * bv + bw * bw).store(&mut squared[b..]);
+            (av * bv + aw * bw).store(&mut real[b..]);
+            (sign * (av * bw - aw * bv)).store(&mut imaginary[b..]);
         }
     }
 
