@@ -25,13 +25,17 @@ const THREADS = [
 /** With ssa-nomerge (binaryen 132) the threads build hangs for ever when its pool is made; no other pass of -O3 does that. */
 const OPTIMISATION = ['-O3', '--skip-pass=ssa-nomerge'];
 
+/** What reads archives and XML, for once a file. */
+const SMALL_PACKAGES = ['quick-xml', 'flate2', 'miniz_oxide'];
+const small = (name) => ['--config', `profile.release.package.${name}.opt-level="s"`];
+
 /**
  * What makes the build without threads smaller: the library alone (together with an rlib, cargo leaves out the optimisation
- * across crates), and small sorts and formatting in place of fast ones (what is hot here sorts by buckets, and formats
- * nothing). The threads build has room without them; with them its pool of one thread sometimes never starts.
+ * across crates), small sorts and formatting in place of fast ones (what is hot here sorts by buckets, and formats nothing),
+ * and small readers of archives. The threads build has room without them; with them its pool of one thread sometimes never starts.
  */
 const SMALL = {
-  command: ['rustc', '--lib', '--crate-type', 'cdylib'],
+  command: ['rustc', '--lib', '--crate-type', 'cdylib', ...SMALL_PACKAGES.flatMap(small)],
   environment: { CARGO_UNSTABLE_BUILD_STD_FEATURES: 'panic-unwind,optimize_for_size' },
 };
 const PLAIN = { command: ['build', '--lib'], environment: {} };

@@ -65,6 +65,8 @@ pub struct Sums<'a> {
     polygons: Polygons,
 }
 
+/// Whether products of 32-bit floats pay for their code.
+const SINGLES: bool = cfg!(not(target_arch = "wasm32"));
 /// 1/ε for 32-bit floats.
 const ROUNDINGS_PER_TURN: f64 = (1 << 24) as f64;
 /// How far the farthest point of all loops may be, in units of the distance to the nearest point of any, for products of
@@ -101,7 +103,7 @@ impl<'a> Sums<'a> {
             let one = &self.loops[**l as usize];
             let gap = gap(&block, &one.bounds, direction);
             let of_edge = rounding(block.union(one.bounds).size().length() / gap);
-            let is_coarse = of_edge <= self.rounding && farthest <= FARTHEST * gap;
+            let is_coarse = SINGLES && of_edge <= self.rounding && farthest <= FARTHEST * gap;
             spent += if is_coarse { of_edge * one.points.len() as f64 } else { 0.0 };
             is_coarse
         };
@@ -109,7 +111,7 @@ impl<'a> Sums<'a> {
         self.rounding_spent += spent;
         let side =
             Side { grid: self.grid, region, direction, center: block.center(), unit: self.unit, may_turn };
-        if !coarse.is_empty() {
+        if SINGLES && !coarse.is_empty() {
             self.polygons.set(self.loops, &coarse);
             // Exact as a power of two, and so that products of 32-bit floats stay numbers.
             let unit = power_of_two_near(1.0 / farthest);
@@ -141,7 +143,9 @@ impl<'a> Sums<'a> {
 
     /// Adds the sums to values, in turns.
     pub fn add_to(&self, values: &mut [f64]) {
-        self.coarse.add_to(values);
+        if SINGLES {
+            self.coarse.add_to(values);
+        }
         self.fine.add_to(values);
     }
 }

@@ -9,6 +9,8 @@ use wide::f64x4;
 /// Vectors of queries that are treated at once, so that the processor need not wait for one; more than one do not pay for
 /// their code everywhere.
 const SEVERAL: usize = if cfg!(target_arch = "wasm32") { 1 } else { 2 };
+/// Turns of zero are counted too where a second kernel would not pay for its code.
+const ALWAYS_TURNS: bool = cfg!(target_arch = "wasm32");
 /// Most queries in a vector.
 const MOST: usize = 8;
 
@@ -63,15 +65,13 @@ impl<T: Number> Product<T> {
 
     /// Adds the sums of the arguments, over 2π.
     pub fn add_to(&self, sums: &mut [f64]) {
-        const LANES: usize = 4;
-        let [real, imaginary, wraps] = self.parts.each_ref().map(|part| part.chunks(LANES));
-        for (sums, ((real, imaginary), wraps)) in sums.chunks_mut(LANES).zip(real.zip(imaginary).zip(wraps)) {
-            let lanes = |from: &[T], rest: f64| {
-                f64x4::from(std::array::from_fn(|k| from.get(k).map_or(rest, |x| x.widened())))
-            };
-            let angles = lanes(imaginary, 0.0).atan2(lanes(real, 1.0)).to_array();
-            let turns = angles.iter().zip(wraps).map(|(angle, wraps)| angle / TAU + wraps.widened());
-            sums.iter_mut().zip(turns).for_each(|(sum, turns)| *sum += turns);
+        let [real, imaginary, wraps] = self.parts.each_ref().map(|part| part.chunks(ANGLES));
+        for (sums, ((real, imaginary), wraps)) in sums.chunks_mut(ANGLES).zip(real.zip(imaginary).zip(wraps))
+        {
+            let four =
+                |from: &[T], rest: f64| std::array::from_fn(|k| from.get(k).map_or(rest, |x| x.widened()));
+            let turns = turns(four(real, 1.0), four(imaginary, 0.0));
+            sums.iter_mut().zip(turns).zip(wraps).for_each(|((sum, turns), w)| *sum += turns + w.widened());
         }
     }
 }
@@ -121,6 +121,15 @@ impl Product<f64> {
         target.store(1, &few, four.imaginary);
         target.store(2, &few, four.wraps);
     }
+}
+
+/// Arguments that are taken at once.
+const ANGLES: usize = 4;
+
+/// The arguments of complex numbers, over 2π.
+#[inline(never)]
+fn turns(real: [f64; ANGLES], imaginary: [f64; ANGLES]) -> [f64; ANGLES] {
+    (f64x4::from(imaginary).atan2(f64x4::from(real)) / f64x4::splat(TAU)).to_array()
 }
 
 /// Edges of polygons seen from rows of queries, for each point.
@@ -220,6 +229,7 @@ impl<T: Number> RowWork<'_, T> {
     #[inline(always)]
     fn rows<F: Floats<Number = T>, G: Floats<Number = T>>(&mut self) {
         let Side { grid, region, direction: (u, sign), center, unit, may_turn } = *self.side;
+        let may_turn = may_turn || ALWAYS_TURNS;
         let [v, w] = [(u + 1) % 3, (u + 2) % 3];
         let counts = self.product.counts;
         let strides = [1, counts[0], counts[0] * counts[1]];
@@ -251,7 +261,7 @@ impl<T: Number> RowWork<'_, T> {
                         few[1] =
                             Few { start: start + width, count: width.min(len - start - width), ..few[0] };
                     }
-                    match (is_short, count == SEVERAL, may_turn) {
+                    match (is_short, SEVERAL == 1 || count == SEVERAL, may_turn) {
                         (true, true, true) => rows.multiply::<G, SEVERAL, true>(ends, few, &mut target),
                         (true, true, false) => rows.multiply::<G, SEVERAL, false>(ends, few, &mut target),
                         (true, false, true) => rows.multiply::<G, 1, true>(ends, [few[0]], &mut target),
