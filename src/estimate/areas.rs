@@ -89,7 +89,7 @@ pub(super) fn areas_by(
         return Err(EstimateError::OnePlace { points: points.len() });
     }
     let sites = Sites::find(points, normals);
-    let neighbourhoods = Neighbourhoods::find(&sites.points, config.neighbours, monitor)?;
+    let neighbourhoods = Neighbourhoods::find(&sites.points, &sites.normals, config.neighbours, monitor)?;
     Ok(sites.share(of_sites(&sites, &sites.normals, &neighbourhoods, monitor)?))
 }
 

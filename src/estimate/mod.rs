@@ -82,7 +82,7 @@ pub fn orient(
     }
     let points = cloud.points();
     let sites = Sites::find(points, &[]);
-    let neighbourhoods = Neighbourhoods::find(&sites.points, config.neighbours, monitor)?;
+    let neighbourhoods = Neighbourhoods::find(&sites.points, &[], config.neighbours, monitor)?;
     let mut normals = normals::plane_normals(&sites.points, &neighbourhoods, monitor)?;
     orientation::propagate(&sites.points, &mut normals, &neighbourhoods, monitor)?;
     let areas = match cloud.areas() {
