@@ -8,6 +8,10 @@ use fast_winding::data::Silent;
 use fast_winding::estimate::{AreaMethod, EstimateConfig, areas};
 use fast_winding::math::{Aabb, Vec3};
 use fast_winding::winding::winding_of_cloud;
+use std::time::Instant;
+
+/// Points of the cloud that is timed.
+const TIMED: usize = 100_000;
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -42,6 +46,12 @@ fn main() {
                 );
             }
         }
+    }
+    let many = cloud_of(&sample(&SURFACES[0], Sampling::Random, TIMED, 1));
+    for method in METHODS {
+        let start = Instant::now();
+        areas(&many, method, &EstimateConfig::default(), &Silent).expect("the cloud has normals and extent");
+        println!("{method:?} of {TIMED} points: {} ms", start.elapsed().as_millis());
     }
 }
 
