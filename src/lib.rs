@@ -16,6 +16,7 @@ pub mod estimate;
 pub mod io;
 pub mod levelset;
 pub mod math;
+pub mod metrics;
 pub mod slice;
 pub mod solid;
 pub mod surface;

@@ -16,16 +16,36 @@ impl Nearest {
     /// order of its items.
     pub fn find(&mut self, bvh: &Bvh, points: &[Vec3], place: usize, count: usize) -> &[(f64, u32)] {
         let center = points[place];
-        let distance = |place: usize| (points[place].distance_squared(center), bvh.items()[place]);
         // The points around it on the curve bound from the start how far to look.
         let first = place.saturating_sub(count / 2).min(points.len().saturating_sub(count));
         let around = first..points.len().min(first + count);
         let is_bounded = around.len() == count;
-        let start = around.map(|place| distance(place).0).fold(0.0, f64::max);
-        let mut limit = (if is_bounded { start } else { f64::INFINITY }, u32::MAX);
+        let start = around.map(|place| points[place].distance_squared(center)).fold(0.0, f64::max);
+        self.search(bvh, points, center, count, if is_bounded { start } else { f64::INFINITY })
+    }
+
+    /// The point nearest to `center` as squared distance and item number, of equally near ones that of the lowest number;
+    /// nothing if there are no points. `points` are as for [`Nearest::find`].
+    pub fn nearest_to(&mut self, bvh: &Bvh, points: &[Vec3], center: Vec3) -> Option<(f64, u32)> {
+        self.search(bvh, points, center, 1, f64::INFINITY).first().copied()
+    }
+
+    /// The `count` points nearest to `center`, none farther than the square root of `limit`.
+    fn search(
+        &mut self,
+        bvh: &Bvh,
+        points: &[Vec3],
+        center: Vec3,
+        count: usize,
+        limit: f64,
+    ) -> &[(f64, u32)] {
+        let distance = |place: usize| (points[place].distance_squared(center), bvh.items()[place]);
+        let mut limit = (limit, u32::MAX);
         self.found.clear();
         self.open.clear();
-        self.open.push((0.0, Child::Inner(0)));
+        if !points.is_empty() {
+            self.open.push((0.0, Child::Inner(0)));
+        }
         while let Some((least, child)) = self.open.pop() {
             if least > limit.0 {
                 continue;
@@ -70,6 +90,7 @@ mod tests {
     fn those_found_are_those_of_a_search_through_all() {
         let on_a_grid = |i: u32| Vec3::new(f64::from(i * 7 % 9), f64::from(i * 5 % 7), f64::from(i * 3 % 5));
         let scattered = |i: u32| Vec3::from_array([0.37, 1.73, 2.91].map(|s| (f64::from(i) * s).sin()));
+        assert_eq!(Nearest::default().nearest_to(&Bvh::build(&[], 4), &[], Vec3::ONE), None);
         for (total, points) in [(1, true), (7, false), (300, true), (700, false)] {
             let points: Vec<Vec3> =
                 (0..total).map(|i| if points { on_a_grid(i) } else { scattered(i) }).collect();
@@ -85,6 +106,10 @@ mod tests {
                     let expected = &all[..all.len().min(count)];
                     assert_eq!(nearest.find(&bvh, &ordered, place, count), expected);
                 }
+                let center = 1.1 * ordered[place] + Vec3::splat(0.3);
+                let distances = points.iter().map(|p| p.distance_squared(center)).zip(0..);
+                let expected = distances.min_by(|a, b| a.partial_cmp(b).unwrap());
+                assert_eq!(nearest.nearest_to(&bvh, &ordered, center), expected);
             }
         }
     }

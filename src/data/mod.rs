@@ -8,6 +8,7 @@ mod monitor;
 mod pairs;
 mod parallel;
 mod soup;
+mod soup_cloud;
 mod warning;
 
 pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit, zeroed};

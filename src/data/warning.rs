@@ -38,6 +38,12 @@ pub enum WarningKind {
     /// Points carried no normals: they were estimated and oriented by propagation, which can fail on
     /// thin or sparse parts.
     EstimatedNormals,
+    /// All points of a cloud without normals lie in a plane, on a line or in one place: it bounds no volume.
+    FlatCloud,
+    /// Triangles without area give no points of a cloud.
+    DegenerateFaces,
+    /// Vertices that no triangle with an area uses give no points of a cloud.
+    UnusedVertices,
 }
 
 impl Warning {
@@ -78,6 +84,9 @@ impl fmt::Display for Warning {
             WarningKind::EstimatedNormals => {
                 write!(f, "normals of {n} points were estimated; thin or sparse parts may come out inverted")
             }
+            WarningKind::FlatCloud => write!(f, "the {n} points lie in one plane: they bound no volume"),
+            WarningKind::DegenerateFaces => write!(f, "{n} triangles without area give no points"),
+            WarningKind::UnusedVertices => write!(f, "{n} vertices of no triangle give no points"),
         }
     }
 }

@@ -1,75 +1,123 @@
-//! The area that each point stands for: its Voronoi cell among its neighbours, in their best-fit plane
-//! (Barill et al. 2018, section 3.1).
-//!
-//! The cell is cut out of a disk by the perpendicular bisectors to the neighbours. That is the Voronoi cell of this one
-//! point without the triangulation of all the others, and it defines open cells: the disk's radius is half the distance
-//! to the farthest neighbour. Within it the cell is certain, since a point that was not looked at is farther away than
-//! that and its bisector passes outside the disk. A cell that still reaches the disk lies at a border: it is closed by
-//! the mirror images of the neighbours, as if the surface went on as it does on the other side. That gives a border
-//! point no more than an inner one; the bare disk would give it two to six times as much.
+use super::curved::curved_areas;
 use super::neighbours::Neighbourhoods;
-use crate::data::{Cancelled, Monitor, fill_in_blocks, signed_area};
-use crate::math::{Vec2, Vec3, fit_plane};
-use std::f64::consts::TAU;
+use super::sites::Sites;
+use super::voronoi::voronoi_areas;
+use super::{EstimateConfig, EstimateError};
+use crate::data::{Cancelled, Monitor, OrientedCloud, PointCloud};
+use crate::math::Vec3;
+use std::f64::consts::PI;
 
-/// Corners of the polygon that stands for the disk; its area is 2.6 % less.
-const DISK_CORNERS: usize = 16;
+/// How the area that each point stands for is estimated. Points in the same place share one area.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AreaMethod {
+    /// The Voronoi cell among the neighbours that look to the same side, in their best-fit plane (Barill et al. 2018,
+    /// section 3.1): what [`complete`](super::complete) and [`orient`](super::orient) use.
+    #[default]
+    Voronoi,
+    /// The Voronoi cell with the area of a quadratic surface fitted to the neighbours above it (Cazals & Pouget 2005).
+    Curved,
+    /// π d², with the distance d to the nearest other place (*Leaps and Bounds*, appendix F.1). It adds up to the surface's
+    /// area on average for places drawn evenly at random, though the single area then varies as much as its mean; it adds
+    /// up to π times that for a square grid, and 3.6 times for a hexagonal one, the most there can be.
+    NearestNeighbour,
+    /// The mean of the Voronoi areas for every place.
+    Uniform,
+}
 
-/// Areas in the square of the points' unit, one for each point.
-pub(super) fn voronoi_areas(
-    points: &[Vec3],
+/// The area of each point by `method`, in the square of the points' unit; areas the cloud came with are not looked at.
+///
+/// # Errors
+/// If and only if the cloud is empty, all its points are in one place, it is without normals and the method is not
+/// [`AreaMethod::NearestNeighbour`], or `monitor` cancels.
+pub fn areas(
+    cloud: &PointCloud,
+    method: AreaMethod,
+    config: &EstimateConfig,
+    monitor: &dyn Monitor,
+) -> Result<Vec<f64>, EstimateError> {
+    let of_sites = match method {
+        AreaMethod::Voronoi => voronoi_areas,
+        AreaMethod::Curved => curved_areas,
+        AreaMethod::NearestNeighbour => circles,
+        AreaMethod::Uniform => mean_areas,
+    };
+    let normals = match (cloud.normals(), method) {
+        (None, AreaMethod::NearestNeighbour) => vec![Vec3::Z; cloud.len()],
+        _ => normals_of(cloud)?,
+    };
+    areas_by(of_sites, cloud, &normals, config, monitor)
+}
+
+/// [`complete`](super::complete) with areas estimated by `method`, also where the cloud came with some.
+///
+/// # Errors
+/// If and only if the cloud is empty or without normals, all its points are in one place, or `monitor` cancels.
+pub fn complete_with(
+    cloud: &PointCloud,
+    method: AreaMethod,
+    config: &EstimateConfig,
+    monitor: &dyn Monitor,
+) -> Result<OrientedCloud, EstimateError> {
+    let normals = normals_of(cloud)?;
+    let areas = areas(cloud, method, config, monitor)?;
+    Ok(OrientedCloud::new(cloud.points().to_vec(), normals, areas)?)
+}
+
+/// The cloud's own normals.
+pub(super) fn normals_of(cloud: &PointCloud) -> Result<Vec<Vec3>, EstimateError> {
+    if cloud.is_empty() {
+        return Err(EstimateError::Empty);
+    }
+    let missing = EstimateError::MissingNormals { points: cloud.len() };
+    cloud.normals().map(<[Vec3]>::to_vec).ok_or(missing)
+}
+
+/// Areas of places from their points, normals and neighbours.
+type OfSites = fn(&Sites, &[Vec3], &Neighbourhoods, &dyn Monitor) -> Result<Vec<f64>, Cancelled>;
+
+/// Areas of points from those of their places; `normals` may be others than the cloud's.
+pub(super) fn areas_by(
+    of_sites: OfSites,
+    cloud: &PointCloud,
+    normals: &[Vec3],
+    config: &EstimateConfig,
+    monitor: &dyn Monitor,
+) -> Result<Vec<f64>, EstimateError> {
+    let points = cloud.points();
+    let first = points.first().ok_or(EstimateError::Empty)?;
+    if points.iter().all(|p| p == first) {
+        return Err(EstimateError::OnePlace { points: points.len() });
+    }
+    let sites = Sites::find(points, normals);
+    let neighbourhoods = Neighbourhoods::find(&sites.points, &sites.normals, config.neighbours, monitor)?;
+    Ok(sites.share(of_sites(&sites, &sites.normals, &neighbourhoods, monitor)?))
+}
+
+fn circles(
+    sites: &Sites,
+    _: &[Vec3],
+    neighbourhoods: &Neighbourhoods,
+    _: &dyn Monitor,
+) -> Result<Vec<f64>, Cancelled> {
+    let place = |i: usize| sites.points[i];
+    let circle = |i: usize| {
+        // The other side of a sheet without thickness is in the same place.
+        let mut distances =
+            neighbourhoods.of(i).iter().map(|&j| place(i).distance_squared(place(j as usize)));
+        PI * distances.find(|d| *d > 0.0).unwrap_or(0.0)
+    };
+    Ok((0..sites.points.len()).map(circle).collect())
+}
+
+fn mean_areas(
+    sites: &Sites,
     normals: &[Vec3],
     neighbourhoods: &Neighbourhoods,
     monitor: &dyn Monitor,
 ) -> Result<Vec<f64>, Cancelled> {
-    let mut areas = vec![0.0; points.len()];
-    let area = |i: usize, (): &mut ()| cell_area(i, points, normals, neighbourhoods.of(i));
-    fill_in_blocks(&mut areas, area, "areas", monitor)?;
-    Ok(areas)
-}
-
-fn cell_area(i: usize, points: &[Vec3], normals: &[Vec3], neighbours: &[u32]) -> f64 {
-    let Some(&farthest) = neighbours.last() else { return 0.0 };
-    let radius = 0.5 * points[i].distance(points[farthest as usize]);
-    // The other side of a thin sheet is near in space and far on the surface.
-    let same_side = neighbours.iter().filter(|&&j| normals[i].dot(normals[j as usize]) >= 0.0);
-    let mut patch = vec![points[i]];
-    patch.extend(same_side.map(|&j| points[j as usize]));
-    let plane = fit_plane(&patch);
-    let (u, v) = (plane.tangent, plane.normal.cross(plane.tangent));
-    let flat = |p: Vec3| Vec2::new((p - points[i]).dot(u), (p - points[i]).dot(v));
-    let mut cell: Vec<Vec2> =
-        (0..DISK_CORNERS).map(|k| radius * Vec2::from_angle(TAU * k as f64 / DISK_CORNERS as f64)).collect();
-    let (sites, copies): (Vec<Vec2>, Vec<Vec2>) =
-        patch[1..].iter().map(|p| flat(*p)).partition(|site| site.length() > 1e-9 * radius);
-    for &site in &sites {
-        cell = closer_to_origin(&cell, site);
-    }
-    let reaches_disk = |p: &Vec2| p.length() > 0.999 * radius;
-    if cell.iter().any(reaches_disk) {
-        for &site in &sites {
-            cell = closer_to_origin(&cell, -site);
-        }
-    }
-    signed_area(&cell) / (1 + copies.len()) as f64 // points in the same place share one cell
-}
-
-/// The part of a convex polygon that is closer to the origin than to `site`.
-fn closer_to_origin(polygon: &[Vec2], site: Vec2) -> Vec<Vec2> {
-    let limit = 0.5 * site.length_squared();
-    let excess = |p: Vec2| p.dot(site) - limit;
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (k, &p) in polygon.iter().enumerate() {
-        let next = polygon[(k + 1) % polygon.len()];
-        let (a, b) = (excess(p), excess(next));
-        if a <= 0.0 {
-            kept.push(p);
-        }
-        if (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0) {
-            kept.push(p + (next - p) * (a / (a - b)));
-        }
-    }
-    kept
+    let areas = voronoi_areas(sites, normals, neighbourhoods, monitor)?;
+    let mean = areas.iter().sum::<f64>() / areas.len() as f64;
+    Ok(vec![mean; areas.len()])
 }
 
 #[cfg(test)]
@@ -77,46 +125,42 @@ mod tests {
     use super::*;
     use crate::data::Silent;
 
-    fn areas(points: &[Vec3], normals: &[Vec3]) -> Vec<f64> {
-        let neighbourhoods = Neighbourhoods::find(points, 20, &Silent).unwrap();
-        voronoi_areas(points, normals, &neighbourhoods, &Silent).unwrap()
-    }
-
-    #[test]
-    fn inner_points_of_a_grid_stand_for_one_cell_and_copies_share_it() {
-        let mut points: Vec<Vec3> =
-            (0..121).map(|i| Vec3::new((i % 11) as f64, 2.0, 1.5 * (i / 11) as f64)).collect();
-        let inner = 60;
-        points.push(points[inner]);
-        let areas = areas(&points, &vec![Vec3::Y; points.len()]);
-        assert!((areas[inner - 2] - 1.5).abs() < 1e-12);
-        assert!((areas[inner] - 0.75).abs() < 1e-12);
-        assert!(areas[..121].iter().all(|a| *a > 0.7 && *a < 1.8), "{areas:?}");
-    }
-
-    #[test]
-    fn areas_of_a_sphere_add_up_to_its_own() {
-        let count = 2000;
-        let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-        let points: Vec<Vec3> = (0..count)
-            .map(|i| {
-                let z = 1.0 - (2 * i + 1) as f64 / count as f64;
-                let (sin, cos) = (golden * i as f64).sin_cos();
-                let r = (1.0 - z * z).sqrt();
-                Vec3::new(r * cos, r * sin, z)
-            })
+    /// A square grid of 100 places at distance 2, each with `copies` points.
+    fn grid(copies: usize) -> PointCloud {
+        let points: Vec<Vec3> = (0..100 * copies)
+            .map(|i| Vec3::new((i / copies % 10) as f64, (i / copies / 10) as f64, 0.5))
             .collect();
-        let total: f64 = areas(&points, &points).iter().sum();
-        let exact = 2.0 * TAU;
-        assert!((total / exact - 1.0).abs() < 5e-3, "{total} instead of {exact}");
+        let normals = vec![Vec3::Z; points.len()];
+        PointCloud::cleaned(points.iter().map(|p| 2.0 * *p).collect(), Some(normals), None).unwrap().0
+    }
+
+    fn total(cloud: &PointCloud, method: AreaMethod) -> f64 {
+        areas(cloud, method, &EstimateConfig::default(), &Silent).unwrap().iter().sum()
     }
 
     #[test]
-    fn the_other_side_of_a_sheet_takes_no_area() {
-        let grid = |z: f64| (0..100).map(move |i| Vec3::new((i % 10) as f64, (i / 10) as f64, z));
-        let points: Vec<Vec3> = grid(0.0).chain(grid(0.01)).collect();
-        let normals: Vec<Vec3> = (0..200).map(|i| if i < 100 { -Vec3::Z } else { Vec3::Z }).collect();
-        let areas = areas(&points, &normals);
-        assert!((areas[44] - 1.0).abs() < 1e-12 && (areas[144] - 1.0).abs() < 1e-12, "{}", areas[44]);
+    fn copies_change_no_sum() {
+        for method in
+            [AreaMethod::Voronoi, AreaMethod::Curved, AreaMethod::NearestNeighbour, AreaMethod::Uniform]
+        {
+            let (single, many) = (total(&grid(1), method), total(&grid(30), method));
+            assert!((many / single - 1.0).abs() < 1e-12, "{method:?}: {many} instead of {single}");
+        }
+    }
+
+    #[test]
+    fn circles_of_a_square_grid_add_up_to_pi_times_its_area() {
+        let circles = total(&grid(1), AreaMethod::NearestNeighbour);
+        assert!((circles / (400.0 * PI) - 1.0).abs() < 1e-12, "{circles}");
+        let (bare, _) = PointCloud::cleaned(grid(1).points().to_vec(), None, None).unwrap();
+        assert_eq!(total(&bare, AreaMethod::NearestNeighbour), circles);
+    }
+
+    #[test]
+    fn uniform_areas_add_up_to_those_of_the_cells() {
+        let cloud = grid(1);
+        let uniform = areas(&cloud, AreaMethod::Uniform, &EstimateConfig::default(), &Silent).unwrap();
+        assert!(uniform.iter().all(|a| *a == uniform[0]));
+        assert!((100.0 * uniform[0] / total(&cloud, AreaMethod::Voronoi) - 1.0).abs() < 1e-12);
     }
 }

@@ -1,11 +1,22 @@
 //! What a raw cloud lacks before it has a winding field: areas, normals, and which way the normals point.
 mod areas;
+mod curved;
 mod neighbours;
 mod normals;
 mod orientation;
+mod sites;
+mod voronoi;
+
+pub use areas::{AreaMethod, areas, complete_with};
 
 use crate::data::{Cancelled, CloudError, Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
+use crate::math::{Vec3, fit_plane};
 use neighbours::Neighbourhoods;
+use sites::Sites;
+use voronoi::voronoi_areas;
+
+/// A cloud is flat if its thickness is below this share of its length: coordinates of 32 bits leave about 1e-7 of a plane.
+const FLAT: f64 = 1e-6;
 
 /// How quantities are estimated from neighbours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +38,8 @@ pub enum EstimateError {
     Empty,
     #[error("the {points} points have no normals: give them, or have them estimated")]
     MissingNormals { points: usize },
+    #[error("the {points} points are all in one place: no area can be estimated, so give them")]
+    OnePlace { points: usize },
     #[error(transparent)]
     Invalid(#[from] CloudError),
     #[error(transparent)]
@@ -37,32 +50,28 @@ pub enum EstimateError {
 /// neighbours (Barill et al. 2018, section 3.1).
 ///
 /// # Errors
-/// If and only if the cloud is empty or without normals, or `monitor` cancels.
+/// If and only if the cloud is empty or without normals, all its points are in one place and it has no areas, or `monitor`
+/// cancels.
 pub fn complete(
     cloud: &PointCloud,
     config: &EstimateConfig,
     monitor: &dyn Monitor,
 ) -> Result<OrientedCloud, EstimateError> {
-    if cloud.is_empty() {
-        return Err(EstimateError::Empty);
-    }
-    let normals = cloud.normals().ok_or(EstimateError::MissingNormals { points: cloud.len() })?.to_vec();
+    let normals = areas::normals_of(cloud)?;
     let areas = match cloud.areas() {
         Some(areas) => areas.to_vec(),
-        None => {
-            let neighbourhoods = Neighbourhoods::find(cloud.points(), config.neighbours, monitor)?;
-            areas::voronoi_areas(cloud.points(), &normals, &neighbourhoods, monitor)?
-        }
+        None => areas::areas_by(voronoi_areas, cloud, &normals, config, monitor)?,
     };
     Ok(OrientedCloud::new(cloud.points().to_vec(), normals, areas)?)
 }
 
 /// The cloud with normals and areas. Normals it does not have are fitted to the neighbours and oriented by propagation
 /// along a minimum spanning tree (Hoppe et al. 1992); a warning then says so, since thin or sparse parts may come out
-/// inverted.
+/// inverted. Another warning tells of points without extent in space, such as three, or any number in a plane.
 ///
 /// # Errors
-/// If and only if the cloud is empty, or `monitor` cancels.
+/// If and only if the cloud is empty, `monitor` cancels, or the cloud has normals, but no areas, and all its points are in
+/// one place.
 pub fn orient(
     cloud: &PointCloud,
     config: &EstimateConfig,
@@ -72,13 +81,24 @@ pub fn orient(
         return Ok((complete(cloud, config, monitor)?, vec![]));
     }
     let points = cloud.points();
-    let neighbourhoods = Neighbourhoods::find(points, config.neighbours, monitor)?;
-    let mut normals = normals::plane_normals(points, &neighbourhoods, monitor)?;
-    orientation::propagate(points, &mut normals, &neighbourhoods, monitor)?;
+    let sites = Sites::find(points, &[]);
+    let neighbourhoods = Neighbourhoods::find(&sites.points, &[], config.neighbours, monitor)?;
+    let mut normals = normals::plane_normals(&sites.points, &neighbourhoods, monitor)?;
+    orientation::propagate(&sites.points, &mut normals, &neighbourhoods, monitor)?;
     let areas = match cloud.areas() {
         Some(areas) => areas.to_vec(),
-        None => areas::voronoi_areas(points, &normals, &neighbourhoods, monitor)?,
+        None => sites.share(voronoi_areas(&sites, &normals, &neighbourhoods, monitor)?),
     };
-    let oriented = OrientedCloud::new(points.to_vec(), normals, areas)?;
-    Ok((oriented, vec![Warning::new(WarningKind::EstimatedNormals, points.len())]))
+    let oriented = OrientedCloud::new(points.to_vec(), sites.spread(normals), areas)?;
+    let mut warnings = vec![Warning::new(WarningKind::EstimatedNormals, points.len())];
+    if is_flat(points) {
+        warnings.push(Warning::new(WarningKind::FlatCloud, points.len()));
+    }
+    Ok((oriented, warnings))
+}
+
+/// Whether the points lie in a plane, on a line or in one place.
+fn is_flat(points: &[Vec3]) -> bool {
+    let [least, _, most] = fit_plane(points).variances;
+    least <= FLAT * FLAT * most
 }

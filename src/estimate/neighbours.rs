@@ -2,6 +2,8 @@ use crate::bvh::{Bvh, Nearest};
 use crate::data::{Cancelled, Monitor, fill_in_blocks};
 use crate::math::{Aabb, Vec3};
 
+/// So many times as many neighbours are looked at where fewer than half of them look to a point's own side.
+const MORE: usize = 3;
 /// Most points in a leaf of the tree that finds them.
 const LEAF_SIZE: usize = 8;
 
@@ -10,8 +12,14 @@ pub(super) struct Neighbourhoods(Vec<Vec<u32>>);
 
 impl Neighbourhoods {
     /// Finds the `count` nearest neighbours of each point, equally near ones in the order of their numbers; fewer where
-    /// there are not as many points.
-    pub fn find(points: &[Vec3], count: usize, monitor: &dyn Monitor) -> Result<Neighbourhoods, Cancelled> {
+    /// there are not as many points, and more on thin sheets, where the other side takes up most of them. `normals` are as
+    /// many as the points, or none.
+    pub fn find(
+        points: &[Vec3],
+        normals: &[Vec3],
+        count: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Neighbourhoods, Cancelled> {
         monitor.report(0.0, "neighbours")?;
         let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
         let bvh = Bvh::build(&boxes, LEAF_SIZE);
@@ -21,8 +29,16 @@ impl Neighbourhoods {
         let mut lists = vec![Vec::new(); points.len()];
         let neighbours = |place: usize, nearest: &mut Nearest| {
             let own = bvh.items()[place];
+            let mut wanted = count;
             let found = nearest.find(&bvh, &ordered, place, count + 1);
-            found.iter().map(|near| near.1).filter(|near| *near != own).take(count).collect()
+            let faces_own_side = |near: &&(f64, u32)| is_same_side(normals, own, near.1);
+            let found = if 2 * found.iter().filter(faces_own_side).count() < count {
+                wanted = MORE * count;
+                nearest.find(&bvh, &ordered, place, wanted + 1)
+            } else {
+                found
+            };
+            found.iter().map(|near| near.1).filter(|near| *near != own).take(wanted).collect()
         };
         fill_in_blocks(&mut lists, neighbours, "neighbours", monitor)?;
         let mut by_point = vec![Vec::new(); points.len()];
@@ -36,6 +52,11 @@ impl Neighbourhoods {
     }
 }
 
+/// Whether two points look to the same side; without normals, all do.
+pub(super) fn is_same_side(normals: &[Vec3], i: u32, j: u32) -> bool {
+    normals.is_empty() || normals[i as usize].dot(normals[j as usize]) >= 0.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,11 +66,11 @@ mod tests {
     fn duplicates_are_neighbours_of_each_other() {
         let mut points = vec![Vec3::ONE; 40];
         points.push(Vec3::ZERO);
-        let found = Neighbourhoods::find(&points, 5, &Silent).unwrap();
+        let found = Neighbourhoods::find(&points, &[], 5, &Silent).unwrap();
         for i in 0..40 {
             assert_eq!(found.of(i).len(), 5);
             assert!(found.of(i).iter().all(|&j| j != i as u32 && j < 40), "{:?}", found.of(i));
         }
-        assert_eq!(Neighbourhoods::find(&points[..3], 5, &Silent).unwrap().of(0), [1, 2]);
+        assert_eq!(Neighbourhoods::find(&points[..3], &[], 5, &Silent).unwrap().of(0), [1, 2]);
     }
 }

@@ -138,7 +138,7 @@ impl From<EstimateError> for Failure {
         match error {
             EstimateError::Cancelled(cancelled) => cancelled.into(),
             EstimateError::Invalid(invalid) => invalid.into(),
-            EstimateError::Empty => Failure::new("EmptyInput", &error),
+            EstimateError::Empty | EstimateError::OnePlace { .. } => Failure::new("EmptyInput", &error),
             EstimateError::MissingNormals { points } => {
                 Failure::new("MissingNormals", &error).with([("points", points.into())])
             }

@@ -5,6 +5,8 @@ use fast_winding::io::{self, Geometry};
 use fast_winding::math::{Aabb, Vec3, area_vector, barycentre};
 use std::f64::consts::{PI, TAU};
 
+pub mod surfaces;
+
 /// An axis-aligned box of twelve triangles.
 pub fn cuboid(bounds: Aabb) -> TriangleSoup {
     let corner = |c: usize| Vec3::select(bits(c), bounds.max, bounds.min);
