@@ -26,7 +26,7 @@ const THREADS = [
 const OPTIMISATION = ['-O3', '--skip-pass=ssa-nomerge'];
 
 /** What reads archives and XML, for once a file. */
-const SMALL_PACKAGES = ['quick-xml', 'flate2', 'miniz_oxide'];
+const SMALL_PACKAGES = ['quick-xml', 'flate2', 'miniz_oxide', 'crc32fast', 'memchr', 'serde-wasm-bindgen', 'robust'];
 const small = (name) => ['--config', `profile.release.package.${name}.opt-level="s"`];
 
 /**

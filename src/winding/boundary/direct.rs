@@ -73,22 +73,14 @@ impl<'a> Direct<'a> {
         self.sums.add_caps(region, self.caps, numbers, &mut self.doubts);
     }
 
-    /// Adds what was in doubt: cap and crossings are decided together, by exact predicates.
+    /// Adds what was in doubt, which is little: cap and crossings are decided together, by exact predicates.
     fn add_doubts(&mut self) {
-        self.doubts.sort_unstable_by_key(|doubt| doubt.cap);
-        for doubts in self.doubts.chunk_by(|a, b| a.cap == b.cap) {
-            let cap = self.caps[doubts[0].cap];
-            for four in doubts.chunks(LANES) {
-                let queries = std::array::from_fn(|k| {
-                    let sample = four[k.min(four.len() - 1)].sample;
-                    Vec3::from_array(std::array::from_fn(|a| self.grid[a][sample[a]]))
-                });
-                for ((doubt, q), fraction) in four.iter().zip(queries).zip(fractions_of(&cap, &queries)) {
-                    let [i, j, k] = doubt.sample;
-                    let place = (k * self.grid[1].len() + j) * self.grid[0].len() + i;
-                    self.values[place] += fraction - f64::from(crossings_of_caps(&[cap], q));
-                }
-            }
+        for Doubt { sample: [i, j, k], cap } in &self.doubts {
+            let cap = self.caps[*cap];
+            let q = Vec3::new(self.grid[0][*i], self.grid[1][*j], self.grid[2][*k]);
+            let [fraction, ..] = fractions_of(&cap, &[q; LANES]);
+            let place = (k * self.grid[1].len() + j) * self.grid[0].len() + i;
+            self.values[place] += fraction - f64::from(crossings_of_caps(&[cap], q));
         }
     }
 }
