@@ -87,7 +87,8 @@ async function measureWasm(fw, job, path, points) {
 function measureNative(program, job, path, pointsFile) {
   const args = [job.job, path];
   if (job.job === 'voxels') args.push('--counts', job.counts);
-  else if (job.job !== 'build') args.push('--points', pointsFile);
+  // As `prepare` of the package: the index of points is built too.
+  else args.push('--points', pointsFile);
   if (job.tolerance) args.push('--tolerance', job.tolerance);
   const env = { ...process.env, RAYON_NUM_THREADS: '1' };
   const times = JSON.parse(execFileSync(program, args.map(String), { cwd: root, env, encoding: 'utf8' }));
