@@ -131,3 +131,39 @@ fn half_angle<F: Floats<Number = f64>>(cap: &Cap, q: [F; 3]) -> (F, F, u32) {
 fn dot<F: Floats>(a: [F; 3], b: [F; 3]) -> F {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::solid_angle;
+    use crate::winding::boundary::curtains::all;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn solid_angles_are_right_or_in_doubt() {
+        let axis = |count: usize| -> Vec<f64> { (0..count).map(|i| 0.25 * (i as f64 - 1.0)).collect() };
+        let grid: Grid = [axis(11), axis(9), axis(7)];
+        let counts = grid.each_ref().map(Vec::len);
+        // The first lies in a plane of samples, its corners and edges on them; the second in none.
+        let flat = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        let tilted = [Vec3::new(0.1, 0.2, 0.3), Vec3::new(1.7, 0.4, 1.1), Vec3::new(0.3, 1.6, 0.2)];
+        let mut product = Product::of(counts);
+        let mut doubts = Vec::new();
+        let caps = [flat, tilted].into_iter().enumerate();
+        multiply(&mut product, &grid, &all(&grid), caps, 0.5, &mut doubts);
+        let mut values = vec![0.0; counts.iter().product()];
+        product.add_to(&mut values);
+        // In doubt is what lies in the plane of the first, and no more than what touches an edge of the second.
+        assert!(doubts.iter().filter(|d| d.cap == 0).all(|d| grid[2][d.sample[2]] == 0.0));
+        assert_eq!(doubts.iter().filter(|d| d.cap == 0).count(), 11 * 9);
+        assert!(doubts.iter().filter(|d| d.cap == 1).count() < 3);
+        for (place, value) in values.iter().enumerate() {
+            let sample = [place % 11, place / 11 % 9, place / 99];
+            let q = Vec3::from_array([0, 1, 2].map(|a| grid[a][sample[a]]));
+            let is_left_out = |cap: usize| doubts.iter().any(|d| (d.cap, d.sample) == (cap, sample));
+            let sure = [flat, tilted].into_iter().enumerate().filter(|(cap, _)| !is_left_out(*cap));
+            let expected: f64 = sure.map(|(_, cap)| solid_angle(q, cap) / (4.0 * PI)).sum();
+            assert!((value - expected).abs() < 1e-12, "{q}: {value} instead of {expected}");
+        }
+    }
+}

@@ -10,7 +10,8 @@
 //! Arguments are summed as one product, with the number of times that it went around.
 use super::caps::Doubt;
 use super::loops::{Loop, Polygons};
-use super::product::{Product, Side};
+use super::product::Product;
+use super::rows::Side;
 use crate::math::{Aabb, Vec3};
 use std::f64::consts::PI;
 use std::ops::Range;
