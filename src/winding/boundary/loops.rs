@@ -20,6 +20,8 @@ pub struct Loop {
     pub area: f64,
     /// Whether the caps contribute nothing anywhere, as those of T-junctions.
     pub is_flat: bool,
+    /// Whether the points are all between the first and the last one, as they are on the side of a triangle.
+    is_straight: bool,
     /// Of a triangle between two parts of a cycle, the loops on its other side along its first two edges; the first of a
     /// part stands for all of it. None where there is a boundary edge.
     parts: Option<[Option<u32>; 2]>,
@@ -84,7 +86,8 @@ impl Cutter<'_> {
         let area = own.iter().map(|cap| area_vector(*cap).length()).sum();
         let has_area = own.iter().any(|cap| normal_signs(*cap) != [0; 3]);
         let is_flat = !has_area || bounds.size().max_element() <= self.least;
-        self.loops.push(Loop { points, caps, bounds, area, is_flat, parts: None, end: 0 });
+        let is_straight = is_flat && bounds == Aabb::around([points[0], points[points.len() - 1]]);
+        self.loops.push(Loop { points, caps, bounds, area, is_flat, is_straight, parts: None, end: 0 });
     }
 }
 
@@ -150,10 +153,11 @@ impl Merger<'_> {
         }
     }
 
-    /// Goes on behind the chord to a part, from a corner, if the loop there is wanted or makes no difference.
+    /// Goes on behind the chord to a part, from a corner, if the loop there is wanted or lies on the chord: then it makes no
+    /// difference, and is where the wanted loop before it is.
     fn cross(&mut self, part: u32, corner: Vec3, path: &mut Vec<Vec3>) {
         let one = &self.loops[part as usize];
-        if self.take_if(|next| next == part).is_some() || one.is_flat && one.parts.is_some() {
+        if self.take_if(|next| next == part).is_some() || one.is_straight && one.parts.is_some() {
             return self.follow(part, path);
         }
         path.push(corner);
@@ -225,5 +229,22 @@ mod tests {
                 assert!(step == 1 || together.ends.len() < some.len());
             }
         }
+    }
+    /// A cycle with a spike: its boundary goes along a line, back, and on.
+    #[test]
+    fn polygons_go_nowhere_but_along_their_loops() {
+        let mut cycle: Vec<Vec3> = (0..65).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
+        cycle[32].x = 500.0;
+        cycle.extend((0..65).map(|k| Vec3::new(64.0 - f64::from(k), 9.0 + f64::from(k % 2), 1.0)));
+        let mut caps = Vec::new();
+        cap(&cycle, 0, cycle.len() - 1, &mut caps);
+        let loops = loops(&[cycle], &caps);
+        let reaches_tip = |l: &u32| loops[*l as usize].bounds.max.x > 64.0;
+        let all = 0..loops.len() as u32;
+        let some: Vec<u32> = all.filter(|l| !loops[*l as usize].is_flat && !reaches_tip(l)).collect();
+        let mut polygons = Polygons::default();
+        polygons.set(&loops, &some);
+        assert!(loops.iter().any(|l| l.is_flat && l.parts.is_some() && l.bounds.max.x == 500.0));
+        assert!(some.len() > 2 && polygons.points.iter().all(|p| p.x <= 64.0));
     }
 }
