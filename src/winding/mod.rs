@@ -21,6 +21,7 @@ mod exact;
 mod facets;
 mod field;
 mod gradient;
+mod half_angle;
 mod hierarchy;
 mod lattice;
 mod locate;

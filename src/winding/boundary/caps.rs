@@ -2,6 +2,7 @@
 use super::curtains::{Grid, Region};
 use super::product::Product;
 use crate::math::{Floats, Registers, Vec3, Work, in_widest_registers};
+use crate::winding::half_angle::{HalfAngle, Triangle};
 
 /// A sample and a cap whose solid angle there is in doubt.
 pub struct Doubt {
@@ -9,9 +10,6 @@ pub struct Doubt {
     pub cap: usize,
 }
 
-/// Rounding error of (a − q)·n relative to the same sum of absolute values (Shewchuk 1997, orient3d), with what the bound's own
-/// computation may lose.
-const NUMERATOR_ERROR: f64 = 8.0 * (f64::EPSILON / 2.0);
 /// Numerator and denominator together are at least this share of |a||b||c| where the angle is good to 1e-12: else the query
 /// is close to an edge.
 const LEAST: f64 = 2e-3;
@@ -26,32 +24,17 @@ pub fn multiply(
     unit: f64,
     doubts: &mut Vec<Doubt>,
 ) {
-    let caps: Vec<Cap> = caps.map(|(number, corners)| Cap::new(number, corners.map(|c| unit * c))).collect();
+    let cap = |(number, corners): (usize, [Vec3; 3])| Cap {
+        number,
+        triangle: Triangle::new(corners.map(|c| unit * c)),
+    };
+    let caps: Vec<Cap> = caps.map(cap).collect();
     in_widest_registers(CapWork { product, grid, region, caps: &caps, unit, doubts });
 }
 
 struct Cap {
     number: usize,
-    corners: [[f64; 3]; 3],
-    normal: [f64; 3],
-    /// Bounds of the errors of the numerator for each unit of (a − q).
-    errors: [f64; 3],
-}
-
-impl Cap {
-    fn new(number: usize, [a, b, c]: [Vec3; 3]) -> Cap {
-        // The normal from edges, not from corners relative to the query: that stays accurate far away.
-        let (u, v) = (b - a, c - a);
-        let (m, n) = (u.abs(), v.abs());
-        let magnitude = Vec3::new(m.y * n.z + m.z * n.y, m.z * n.x + m.x * n.z, m.x * n.y + m.y * n.x);
-        let corners = [a, b, c].map(|p| p.to_array());
-        Cap {
-            number,
-            corners,
-            normal: u.cross(v).to_array(),
-            errors: (NUMERATOR_ERROR * magnitude).to_array(),
-        }
-    }
+    triangle: Triangle,
 }
 
 struct CapWork<'a> {
@@ -85,15 +68,17 @@ impl Work for CapWork<'_> {
                     ];
                     let mut four = product.four::<R::Doubles>([first, j, k], count);
                     for cap in caps {
-                        let (real, imaginary, certain) = half_angle(cap, q);
-                        let open = !certain & ((1 << count) - 1);
+                        let HalfAngle { numerator, denominator, error, lengths } = cap.triangle.half_angle(q);
+                        let size = numerator.abs();
+                        let is_large = (size + denominator.abs()).greater(R::Doubles::splat(LEAST) * lengths);
+                        let open = !(is_large & size.greater(error)) & ((1 << count) - 1);
                         if open == 0 {
-                            four.multiply(real, imaginary);
+                            four.multiply(denominator, numerator);
                             continue;
                         }
                         let (mut reals, mut imaginaries) = ([0.0; 4], [0.0; 4]);
-                        real.store(&mut reals);
-                        imaginary.store(&mut imaginaries);
+                        denominator.store(&mut reals);
+                        numerator.store(&mut imaginaries);
                         for lane in (0..count).filter(|lane| open >> lane & 1 == 1) {
                             (reals[lane], imaginaries[lane]) = (1.0, 0.0);
                             doubts.push(Doubt { sample: [first + lane, j, k], cap: cap.number });
@@ -105,31 +90,6 @@ impl Work for CapWork<'_> {
             }
         }
     }
-}
-
-/// The half solid angle of a cap as denominator and numerator of its tangent (van Oosterom & Strackee 1983), and the lanes
-/// where its sign and size are certain.
-#[inline(always)]
-fn half_angle<F: Floats<Number = f64>>(cap: &Cap, q: [F; 3]) -> (F, F, u32) {
-    let corner = |k: usize| -> [F; 3] {
-        let [x, y, z] = cap.corners[k];
-        [F::splat(x) - q[0], F::splat(y) - q[1], F::splat(z) - q[2]]
-    };
-    let (a, b, c) = (corner(0), corner(1), corner(2));
-    let splat = |v: [f64; 3]| [F::splat(v[0]), F::splat(v[1]), F::splat(v[2])];
-    let numerator = dot(a, splat(cap.normal));
-    let error = dot([a[0].abs(), a[1].abs(), a[2].abs()], splat(cap.errors));
-    let (la, lb, lc) = (dot(a, a).sqrt(), dot(b, b).sqrt(), dot(c, c).sqrt());
-    let ab = la * lb;
-    let denominator = (ab + dot(a, b)) * lc + (dot(b, c) * la + dot(c, a) * lb);
-    let size = numerator.abs();
-    let is_large = (size + denominator.abs()).greater(F::splat(LEAST) * ab * lc);
-    (denominator, numerator, is_large & size.greater(error))
-}
-
-#[inline(always)]
-fn dot<F: Floats>(a: [F; 3], b: [F; 3]) -> F {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]

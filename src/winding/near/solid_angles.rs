@@ -3,6 +3,7 @@ use super::LANES;
 use super::angles::Angles;
 use crate::math::{Floats, Vec3};
 use crate::treecode::{GROUPS, Lanes, Octet, QueryBlock, QueryGroup, groups_of, parts, relative};
+use crate::winding::half_angle::{HalfAngle, Triangle};
 use wide::{f32x4, f64x4};
 
 /// Who decides on which side of a triangle a query lies where rounding leaves it open.
@@ -25,10 +26,6 @@ impl Sides for AsComputed {
         numerators
     }
 }
-
-/// Rounding error of (a − q)·n relative to the same sum of absolute values: (7 + 56ε) ε, ε = 2⁻⁵³ (Shewchuk 1997,
-/// orient3d), with what the bound's own computation may lose.
-const NUMERATOR_ERROR: f64 = 8.0 * (f64::EPSILON / 2.0);
 
 /// Adds the solid angles of a triangle to the sums of some groups of queries, their signs decided by `sides`.
 #[cold]
@@ -60,20 +57,20 @@ fn set_precisely<D: Sides>(
     lanes: u32,
     [to_numerators, to_denominators]: [&mut Octet; 2],
 ) {
-    let triangle = Triangle::new(corners);
+    let triangle = Triangle::new(*corners);
     for (half, q) in queries.positions[2 * group..][..2].iter().enumerate() {
         let lanes = lanes >> (LANES * half) & 0xf;
         if lanes == 0 {
             continue;
         }
-        let (mut numerators, denominators, bound) = triangle.half_angles::<D>(q);
+        let HalfAngle { numerator: mut numerators, denominator, error, .. } = triangle.half_angle(*q);
         if D::DECIDES {
-            let open = numerators.abs().simd_le(bound).to_bitmask();
+            let open = numerators.abs().simd_le(error).to_bitmask();
             if open != 0 {
                 numerators = sides.decide(corners, q, numerators, open);
             }
         }
-        let [numerators, denominators] = [numerators, denominators].map(|v| v.to_array());
+        let [numerators, denominators] = [numerators, denominator].map(|v| v.to_array());
         for k in (0..LANES).filter(|k| lanes >> k & 1 == 1) {
             let place = LANES * half + k;
             (to_numerators.0[place], to_denominators.0[place]) = narrowed(numerators[k], denominators[k]);
@@ -163,7 +160,7 @@ impl NearTriangle {
         }
     }
 
-    /// As [`Triangle::half_angles`], and the lanes in which they are right.
+    /// As [`Triangle::half_angle`], and the lanes in which they are right.
     #[inline(always)]
     fn half_angles<F: Floats<Number = f32>>(&self, q: &QueryGroup, part: usize) -> (F, F, u32) {
         // All with opposite signs, and so is the normal.
@@ -195,52 +192,6 @@ fn product<F: Floats<Number = f32>>(a: &[F; 3], b: &[F; 3]) -> F {
 #[inline(always)]
 fn larger(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
-}
-
-/// A triangle in all lanes.
-struct Triangle {
-    corners: [Lanes; 3],
-    normal: Lanes,
-    /// Sums of absolute values of the products in the normal.
-    normal_magnitude: Lanes,
-}
-
-impl Triangle {
-    #[inline(always)]
-    fn new([a, b, c]: &[Vec3; 3]) -> Triangle {
-        let splat = |v: Vec3| v.to_array().map(f64x4::splat);
-        // The normal from edges, not from corners relative to the query: that stays accurate far away.
-        let (u, v) = (*b - *a, *c - *a);
-        let (m, n) = (u.abs(), v.abs());
-        let magnitude = Vec3::new(m.y * n.z + m.z * n.y, m.z * n.x + m.x * n.z, m.x * n.y + m.y * n.x);
-        Triangle {
-            corners: [splat(*a), splat(*b), splat(*c)],
-            normal: splat(u.cross(v)),
-            normal_magnitude: splat(NUMERATOR_ERROR * magnitude),
-        }
-    }
-
-    /// Tangents of the half solid angles as numerators and denominators (van Oosterom & Strackee 1983), and bounds of the
-    /// numerators' errors if they are asked for.
-    #[inline(always)]
-    fn half_angles<D: Sides>(&self, q: &Lanes) -> (f64x4, f64x4, f64x4) {
-        let minus = |c: &Lanes| [c[0] - q[0], c[1] - q[1], c[2] - q[2]];
-        let [a, b, c] = [minus(&self.corners[0]), minus(&self.corners[1]), minus(&self.corners[2])];
-        let numerator = dot(&a, &self.normal);
-        let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
-        let denominator = (la * lb + dot(&a, &b)) * lc + (dot(&b, &c) * la + dot(&c, &a) * lb);
-        let bound = if D::DECIDES {
-            dot(&[a[0].abs(), a[1].abs(), a[2].abs()], &self.normal_magnitude)
-        } else {
-            f64x4::ZERO
-        };
-        (numerator, denominator, bound)
-    }
-}
-
-#[inline(always)]
-fn dot(a: &Lanes, b: &Lanes) -> f64x4 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]
