@@ -3,8 +3,8 @@
 //! osculating jets*, with degree 2), and √(1 + |∇h|²) is summed over the cell.
 use super::neighbours::Neighbourhoods;
 use super::sites::Sites;
-use super::voronoi::{Cell, voronoi_cell};
-use crate::data::{Cancelled, Monitor, fill_in_blocks, signed_area};
+use super::voronoi::{Cell, areas_of_cells};
+use crate::data::{Cancelled, Monitor, signed_area};
 use crate::math::{Vec2, Vec3};
 
 /// Coefficients of a quadratic height: 1, x, y, x², xy, y².
@@ -20,12 +20,7 @@ pub(super) fn curved_areas(
     neighbourhoods: &Neighbourhoods,
     monitor: &dyn Monitor,
 ) -> Result<Vec<f64>, Cancelled> {
-    let mut areas = vec![0.0; normals.len()];
-    let area = |i: usize, (): &mut ()| {
-        voronoi_cell(i, &sites.points, normals, neighbourhoods.of(i)).map_or(0.0, |cell| curved_area(&cell))
-    };
-    fill_in_blocks(&mut areas, area, "areas", monitor)?;
-    Ok(areas)
+    areas_of_cells(sites, normals, neighbourhoods, &curved_area, monitor)
 }
 
 /// The area of the fitted surface above the cell; the cell's own where there are too few neighbours for a fit.

@@ -34,11 +34,22 @@ pub(super) fn voronoi_areas(
     neighbourhoods: &Neighbourhoods,
     monitor: &dyn Monitor,
 ) -> Result<Vec<f64>, Cancelled> {
+    areas_of_cells(sites, normals, neighbourhoods, &Cell::area, monitor)
+}
+
+/// The areas that `area` gives the places' cells.
+pub(super) fn areas_of_cells(
+    sites: &Sites,
+    normals: &[Vec3],
+    neighbourhoods: &Neighbourhoods,
+    area: &(dyn Fn(&Cell) -> f64 + Sync),
+    monitor: &dyn Monitor,
+) -> Result<Vec<f64>, Cancelled> {
     let mut areas = vec![0.0; normals.len()];
-    let area = |i: usize, (): &mut ()| {
-        voronoi_cell(i, &sites.points, normals, neighbourhoods.of(i)).map_or(0.0, |cell| cell.area())
+    let of_place = |i: usize, (): &mut ()| {
+        voronoi_cell(i, &sites.points, normals, neighbourhoods.of(i)).map_or(0.0, |cell| area(&cell))
     };
-    fill_in_blocks(&mut areas, area, "areas", monitor)?;
+    fill_in_blocks(&mut areas, of_place, "areas", monitor)?;
     Ok(areas)
 }
 
@@ -66,7 +77,7 @@ impl Cell {
 }
 
 /// Nothing if there are no neighbours.
-pub(super) fn voronoi_cell(i: usize, points: &[Vec3], normals: &[Vec3], neighbours: &[u32]) -> Option<Cell> {
+fn voronoi_cell(i: usize, points: &[Vec3], normals: &[Vec3], neighbours: &[u32]) -> Option<Cell> {
     let farthest = *neighbours.last()?;
     let radius = REACH * points[i].distance(points[farthest as usize]);
     // The other side of a thin sheet is near in space and far on the surface.
