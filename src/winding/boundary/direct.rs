@@ -1,5 +1,5 @@
-//! Loops summed at the samples of a block themselves: from beside where a part of the block is apart from the loop, with
-//! exact predicates where it is not.
+//! Loops summed at the samples of a block themselves: from beside where a part of the block is apart from the loop, cap by
+//! cap where it is not.
 use super::BoundaryField;
 use super::caps::Doubt;
 use super::curtains::{Grid, Region, Sums, all, away, box_of, largest};
