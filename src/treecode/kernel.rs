@@ -1,5 +1,6 @@
 use crate::bvh::WIDTH;
 use crate::math::Vec3;
+use std::ops::Range;
 use wide::f64x4;
 
 /// Four points, one in each SIMD lane.
@@ -39,4 +40,16 @@ pub trait Kernel: Sync {
 
     /// Adds the gradients of the winding numbers of a block, times 4π, each source in a lane of its own.
     fn add_gradient(sum: &mut Lanes, block: &Self::Block, query: &Lanes);
+}
+
+/// Winding numbers at points by the direct sum of a range of sources, in f64: each four of these are packed once.
+pub fn direct_sums<K: Kernel>(sources: &K, range: Range<usize>, points: &[Vec3]) -> Vec<f64> {
+    let mut sums: Vec<(Lanes, K::Sum)> =
+        points.iter().map(|q| (q.to_array().map(f64x4::splat), K::sum())).collect();
+    for first in range.clone().step_by(WIDTH) {
+        let member = |k: usize| Some(first + k).filter(|m| *m < range.end);
+        let block = sources.block(std::array::from_fn(member));
+        sums.iter_mut().for_each(|(q, sum)| K::add(sum, &block, q));
+    }
+    sums.into_iter().map(|(_, sum)| K::total(sum)).collect()
 }

@@ -14,5 +14,5 @@ pub use dual::{
     PointTargets, Proof, QueryBlock, QueryGroup, SourceKind, Sources, Targets, groups_of, parts, relative,
 };
 pub use expansion::Order;
-pub use kernel::{Kernel, Lanes, Quadrature};
+pub use kernel::{Kernel, Lanes, Quadrature, direct_sums};
 pub use tree::{Scratch, Tree, TreeConfig};

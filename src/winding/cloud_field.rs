@@ -1,10 +1,9 @@
 //! The field of a cloud: the dual tree for many points, the tree of Barill et al. 2018 for few.
-use super::dipoles::direct_sum;
 use super::error_model::{CLOUD_ERROR, COARSE_BETA, FINE_BETA};
 use super::many::{InsideTest, Many};
 use crate::data::{BLOCK, Cancelled, Monitor, OrientedCloud};
 use crate::math::Vec3;
-use crate::treecode::{Order, Scratch, Targets, Tree, TreeConfig};
+use crate::treecode::{Order, Scratch, Targets, Tree, TreeConfig, direct_sums};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
 
@@ -53,8 +52,13 @@ impl CloudField {
         monitor: &dyn Monitor,
         set: &mut dyn FnMut(usize, bool),
     ) -> Result<(), Cancelled> {
-        let exactly = |_: usize, q: Vec3| direct_sum(&self.cloud, q) >= threshold;
-        let test = InsideTest { threshold, offset: &|_| 0.0, point, exactly: &exactly };
+        let exactly = |_: &[usize], points: &[Vec3]| -> Vec<bool> {
+            direct_sums(&*self.cloud, 0..self.cloud.points().len(), points)
+                .into_iter()
+                .map(|w| w >= threshold)
+                .collect()
+        };
+        let test = InsideTest { threshold, is_proven: false, offset: &|_| 0.0, point, exactly: &exactly };
         self.refined.fetch_add(self.many.classify(targets, &test, monitor, set)?, Relaxed);
         Ok(())
     }

@@ -13,17 +13,6 @@ pub struct DipoleBlock {
     area_vectors: Lanes,
 }
 
-/// The winding number at `q` by the direct sum of all dipoles, in f64.
-pub fn direct_sum(cloud: &OrientedCloud, q: Vec3) -> f64 {
-    let lanes = q.to_array().map(f64x4::splat);
-    let mut sum = OrientedCloud::sum();
-    for first in (0..cloud.points().len()).step_by(WIDTH) {
-        let member = |k: usize| Some(first + k).filter(|m| *m < cloud.points().len());
-        OrientedCloud::add(&mut sum, &cloud.block(std::array::from_fn(member)), &lanes);
-    }
-    OrientedCloud::total(sum)
-}
-
 impl Kernel for OrientedCloud {
     type Block = DipoleBlock;
     type Sum = f64x4;

@@ -58,9 +58,12 @@ impl SoupField {
         let mut inside = vec![false; points.len()];
         let test = InsideTest {
             threshold,
+            is_proven: true,
             offset: &|i| parts[i].value(),
             point: &|i| points[i],
-            exactly: &|i, q| self.is_inside_exactly(parts[i].value(), q, threshold),
+            exactly: &|indices, points| {
+                self.are_inside_exactly(indices, &|i| parts[i].value(), points, threshold)
+            },
         };
         let mut set = |i: usize, is_inside: bool| inside[i] = is_inside;
         self.count_refined(many.classify(&PointTargets::new(points), &test, monitor, &mut set)?);
@@ -78,10 +81,19 @@ impl SoupField {
     }
 
     /// By the direct sum; `crossings` are those of the surface and the caps.
-    fn is_inside_exactly(&self, crossings: f64, q: Vec3, threshold: f64) -> bool {
-        let mut fraction = [0.0];
-        self.exact_fractions(&[q], &mut fraction);
-        crossings - f64::from(self.cap_crossings(q)) + fraction[0] >= threshold - TIE
+    fn are_inside_exactly(
+        &self,
+        indices: &[usize],
+        crossings: &dyn Fn(usize) -> f64,
+        points: &[Vec3],
+        threshold: f64,
+    ) -> Vec<bool> {
+        let mut fractions = vec![0.0; points.len()];
+        self.exact_fractions(points, &mut fractions);
+        let is_inside = |((index, q), fraction): ((&usize, &Vec3), &f64)| {
+            crossings(*index) - f64::from(self.cap_crossings(*q)) + fraction >= threshold - TIE
+        };
+        indices.iter().zip(points).zip(&fractions).map(is_inside).collect()
     }
 
     /// One bit for each sample, set where w ≥ `threshold`.
@@ -114,9 +126,10 @@ impl SoupField {
             let point = |index: usize| lattice.point(lattice.sample(index));
             let test = InsideTest {
                 threshold,
+                is_proven: true,
                 offset: &crossings,
                 point: &point,
-                exactly: &|index, q| self.is_inside_exactly(crossings(index), q, threshold),
+                exactly: &|indices, points| self.are_inside_exactly(indices, &crossings, points, threshold),
             };
             let share = slabs.len() as f64 / scan.slabs() as f64;
             let part = |fraction: f64, stage: &str| {

@@ -11,14 +11,12 @@ use super::locate::Locator;
 use super::many::Many;
 use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
-use crate::bvh::WIDTH;
 use crate::data::{BLOCK, TriangleSoup};
 use crate::math::{Vec3, area_vector};
-use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig};
+use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig, direct_sums};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
-use wide::f64x4;
 
 /// Up to this many boundary edges are summed exactly whatever the tolerance: that costs less than a walk.
 const FEW_EDGES: usize = 24;
@@ -162,23 +160,17 @@ impl SoupField {
             let queries = std::array::from_fn(|k| four[k.min(four.len() - 1)]);
             let fractions =
                 if self.curtain.edges() == 0 { [0.0; LANES] } else { self.curtain.fractions(&queries) };
-            for (k, result) in results.iter_mut().enumerate() {
-                *result = fractions[k] + self.loose_sum(queries[k]);
+            results.iter_mut().zip(fractions).for_each(|(result, fraction)| *result = fraction);
+        }
+        if !self.closure.loose.is_empty() {
+            let loose = self.closure.caps.len()..self.sources.len();
+            for (points, results) in points.chunks(BLOCK).zip(results.chunks_mut(BLOCK)) {
+                results
+                    .iter_mut()
+                    .zip(direct_sums(&self.sources, loose.clone(), points))
+                    .for_each(|(r, w)| *r += w);
             }
         }
-    }
-
-    fn loose_sum(&self, q: Vec3) -> f64 {
-        if self.closure.loose.is_empty() {
-            return 0.0;
-        }
-        let lanes = q.to_array().map(f64x4::splat);
-        let mut sum = Triangles::sum();
-        for first in (self.closure.caps.len()..self.sources.len()).step_by(WIDTH) {
-            let member = |k: usize| Some(first + k).filter(|m| *m < self.sources.len());
-            Triangles::add(&mut sum, &self.sources.block(std::array::from_fn(member)), &lanes);
-        }
-        Triangles::total(sum)
     }
 
     /// Where scattered points lie. Built outside of the cell that holds it: a thread that waited for another to build could
