@@ -58,7 +58,7 @@ impl CloudField {
                 .map(|w| w >= threshold)
                 .collect()
         };
-        let test = InsideTest { threshold, is_proven: false, offset: &|_| 0.0, point, exactly: &exactly };
+        let test = InsideTest { threshold, offset: &|_| 0.0, point, exactly: &exactly };
         self.refined.fetch_add(self.many.classify(targets, &test, monitor, set)?, Relaxed);
         Ok(())
     }

@@ -58,7 +58,6 @@ impl SoupField {
         let mut inside = vec![false; points.len()];
         let test = InsideTest {
             threshold,
-            is_proven: true,
             offset: &|i| parts[i].value(),
             point: &|i| points[i],
             exactly: &|indices, points| {
@@ -126,7 +125,6 @@ impl SoupField {
             let point = |index: usize| lattice.point(lattice.sample(index));
             let test = InsideTest {
                 threshold,
-                is_proven: true,
                 offset: &crossings,
                 point: &point,
                 exactly: &|indices, points| self.are_inside_exactly(indices, &crossings, points, threshold),

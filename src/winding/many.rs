@@ -9,12 +9,10 @@ use std::sync::Arc;
 pub const MANY: usize = 1024;
 /// Most sources in a leaf. Leaves of 6 to 14 need about as much work on the bunny; the larger ones take less memory.
 const LEAF: usize = 12;
-/// Largest errors, as measured, of the looks that an inside test takes before the direct sum.
-const LOOKS: [f64; 3] = [2.5e-2, 2e-3, 1e-4];
-/// The same where the answer has to be proven: what clusters may leave out. What counts is the bound of all that they leave out
-/// together, some hundred times that. On a soup of loose triangles the first look leaves 0.3 % of a lattice open, the second
-/// 0.01 %.
-const PROVEN_LOOKS: [f64; 2] = [7e-4, 1e-5];
+/// What clusters may leave out in the looks that an inside test takes before the direct sum. What decides is the bound of all
+/// that they leave out together, some hundred times that. On a soup of loose triangles the first look leaves 0.3 % of a lattice
+/// open, the second 0.01 %.
+const LOOKS: [f64; 2] = [7e-4, 1e-5];
 /// Queries that are summed directly together.
 pub const TOGETHER: usize = 64;
 
@@ -31,8 +29,6 @@ type Give<'a> = &'a mut dyn FnMut(&[usize], &[f64], f64);
 /// An inside test at many points: w = `offset` + the field of the sources.
 pub struct InsideTest<'a> {
     pub threshold: f64,
-    /// Whether bounds of errors decide, which takes twice as long as what errors were seen to be.
-    pub is_proven: bool,
     /// By the index of a query.
     pub offset: &'a dyn Fn(usize) -> f64,
     pub point: &'a dyn Fn(usize) -> Vec3,
@@ -99,30 +95,24 @@ impl Many {
         let named = |fraction: f64, _: &str| monitor.report(fraction, "inside test").is_ok();
         let again = |_: f64, _: &str| monitor.report(1.0, "inside test").is_ok();
         let mut open: Vec<usize> = Vec::new();
-        let looks = match test.is_proven {
-            true => {
-                PROVEN_LOOKS.map(|error| (DualAccuracy { error, ..DualAccuracy::DEFAULT }, None)).to_vec()
-            }
-            false => LOOKS.iter().filter_map(|e| Some((DualAccuracy::within(*e)?, Some(*e)))).collect(),
-        };
-        for (look, (accuracy, error)) in looks.into_iter().enumerate() {
-            let proof = if error.is_none() { Proof::Bounds } else { Proof::Nothing };
+        for (look, error) in LOOKS.into_iter().enumerate() {
+            let accuracy = DualAccuracy { error, ..DualAccuracy::DEFAULT };
             let mut left = Vec::new();
             let mut judge = |index: usize, w: f64, bound: f64| {
                 let above = (test.offset)(index) + w - test.threshold;
                 set(index, above >= 0.0);
-                if above.abs() <= error.unwrap_or(bound) {
+                if above.abs() <= bound {
                     left.push(index);
                 }
             };
             if look == 0 {
-                self.each(targets, &accuracy, proof, &named, &mut |indices, found, bound| {
+                self.each(targets, &accuracy, Proof::Bounds, &named, &mut |indices, found, bound| {
                     indices.iter().zip(found).for_each(|(index, w)| judge(*index, *w, bound));
                 })?;
             } else {
                 let points: Vec<Vec3> = open.iter().map(|&index| (test.point)(index)).collect();
                 let targets = PointTargets::new(&points);
-                self.each(&targets, &accuracy, proof, &again, &mut |places, found, bound| {
+                self.each(&targets, &accuracy, Proof::Bounds, &again, &mut |places, found, bound| {
                     places.iter().zip(found).for_each(|(k, w)| judge(open[*k], *w, bound));
                 })?;
             }
