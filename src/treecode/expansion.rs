@@ -70,7 +70,42 @@ fn low(x: f64) -> f32 {
 pub(super) struct Expansion {
     centers: Positions,
     radius_squared: f32x4,
+    /// What [`Remainder`] needs: Σ a / 4π, and r Σ a |y|² / 4π.
+    area: f32x4,
+    third: f32x4,
     series: Series,
+}
+
+/// What expansions of order 2 leave out at a query: r Σ a |y|² / |R|⁵ and Σ a / |R|², over 4π, of the clusters that are far.
+#[derive(Clone, Copy)]
+pub(super) struct Remainder {
+    third: f32x4,
+    area: f32x4,
+    /// Fields that were added.
+    count: u32,
+}
+
+/// Errors of 32-bit rounding of a field, in units of Σ a / 4π|R|²: measured, with a margin of 20.
+const ROUNDING: f64 = 4e-6;
+/// The same of a sum, for each that is added.
+const ROUNDING_OF_SUM: f64 = 6e-8;
+
+impl Remainder {
+    pub const NOTHING: Remainder = Remainder { third: f32x4::ZERO, area: f32x4::ZERO, count: 0 };
+
+    /// A bound of the error of w: the term of degree k of the field of an area a at y is at most (k+1) a |y|ᵏ / 4π|R|ᵏ⁺²,
+    /// |y| ≤ r ≤ |R| / β, and with t = 1/β the sum of (k+1) t^(k−3) over k > 2 is (4 − 3t) / (1 − t)².
+    pub fn bound(&self, beta: f64) -> f64 {
+        let t = 1.0 / beta;
+        let tail = (4.0 - 3.0 * t) / ((1.0 - t) * (1.0 - t));
+        let rounding = ROUNDING + ROUNDING_OF_SUM * f64::from(self.count);
+        (1.0 + rounding) * (tail * sum_of_lanes(self.third) + rounding * sum_of_lanes(self.area))
+    }
+}
+
+pub(super) fn sum_of_lanes(lanes: f32x4) -> f64 {
+    let [a, b, c, d] = lanes.to_array().map(f64::from);
+    (a + b) + (c + d)
 }
 
 /// Where empty children are put: far from every query of interest, so that no 0/0 arises.
@@ -83,11 +118,14 @@ impl Expansion {
         let lane = |f: &dyn Fn(&Coefficients) -> f64| {
             f32x4::from(coefficients.each_ref().map(|c| c.as_ref().map_or(0.0, |c| f(c) as f32)))
         };
+        let of_ball = |f: &dyn Fn(&Moments, f64) -> f64| {
+            f32x4::from(children.each_ref().map(|c| c.as_ref().map_or(0.0, |(m, r)| f(m, *r) as f32)))
+        };
         Expansion {
             centers: Positions::new(children.each_ref().map(|c| c.as_ref().map_or(NOWHERE, |c| c.0.center))),
-            radius_squared: f32x4::from(
-                children.each_ref().map(|c| c.as_ref().map_or(0.0, |c| (c.1 * c.1) as f32)),
-            ),
+            radius_squared: of_ball(&|_, r| r * r),
+            area: of_ball(&|m, _| m.area / (4.0 * PI)),
+            third: of_ball(&|m, r| r * m.spread / (4.0 * PI)),
             series: Series {
                 dipole: [0, 1, 2].map(|k| lane(&|c| c.dipole[k])),
                 quadrupole: [0, 1, 2, 3, 4].map(|k| lane(&|c| c.quadrupole[k])),
@@ -119,6 +157,29 @@ impl Expansion {
         let is_far = square.simd_gt(beta_squared * self.radius_squared);
         let far = is_far.to_bitmask();
         if far == 0 { (f32x4::splat(0.0), 0) } else { (is_far & self.series.at(offset, square, order), far) }
+    }
+
+    /// [`Expansion::far_field`] of order 2, which adds what it leaves out to `remainder`.
+    #[inline(always)]
+    pub fn bounded_field(
+        &self,
+        query: &Positions,
+        beta_squared: f32x4,
+        remainder: &mut Remainder,
+    ) -> (f32x4, u32) {
+        let offset = query.minus(&self.centers);
+        let square = squared_length(&offset);
+        let is_far = square.simd_gt(beta_squared * self.radius_squared);
+        let far = is_far.to_bitmask();
+        if far == 0 {
+            return (f32x4::ZERO, 0);
+        }
+        let inverse_square = f32x4::splat(1.0) / square;
+        remainder.count += 1;
+        remainder.area += is_far & (self.area * inverse_square);
+        remainder.third +=
+            is_far & (self.third * square.sqrt() * inverse_square * inverse_square * inverse_square);
+        (is_far & self.series.at(offset, square, Order::Two), far)
     }
 }
 

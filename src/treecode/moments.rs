@@ -10,6 +10,8 @@ const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 
 pub struct Moments {
     pub area: f64,
     pub center: Vec3,
+    /// Σ a |y|², y = x − centre
+    pub spread: f64,
     /// Σ a n
     pub zeroth: Vec3,
     /// `first[i]` = Σ a yᵢ n, y = x − centre
@@ -28,7 +30,9 @@ impl Moments {
         for source in sources {
             moments.zeroth += source.area_vector;
             for point in source.points {
-                moments.add_displaced(point - center, source.area_vector / 3.0);
+                let y = point - center;
+                moments.spread += source.area * y.length_squared() / 3.0;
+                moments.add_displaced(y, source.area_vector / 3.0);
             }
         }
         moments
@@ -42,6 +46,7 @@ impl Moments {
         let mut moments = Moments { area, center, ..Moments::default() };
         for part in parts {
             let d = part.center - center;
+            moments.spread += part.spread + part.area * d.length_squared();
             moments.zeroth += part.zeroth;
             moments.add_displaced(d, part.zeroth);
             for i in 0..3 {
@@ -93,6 +98,7 @@ mod tests {
         let parts: Vec<Moments> = sources.chunks(5).map(|c| Moments::of_sources(c, Vec3::ZERO)).collect();
         let joined = Moments::of_clusters(&parts, Vec3::ZERO);
         assert!((whole.center - joined.center).length() < 1e-15);
+        assert!((whole.spread - joined.spread).abs() < 1e-14);
         for i in 0..3 {
             assert!((whole.first[i] - joined.first[i]).length() < 1e-14);
             for j in 0..3 {

@@ -1,6 +1,7 @@
+mod bounded;
 mod gradient;
 
-use super::expansion::{Cluster, Expansion, Order, Positions};
+use super::expansion::{Cluster, Expansion, Order, Positions, sum_of_lanes};
 use super::frame::Frame;
 use super::kernel::{Kernel, Quadrature};
 use super::moments::Moments;
@@ -65,11 +66,6 @@ fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-fn sum_of_lanes(lanes: f32x4) -> f64 {
-    let [a, b, c, d] = lanes.to_array().map(f64::from);
-    (a + b) + (c + d)
-}
-
 impl Block {
     fn new(queries: &[Vec3], frame: &Frame) -> Block {
         let active = (0..queries.len()).filter(|&i| queries[i].is_finite()).fold(0, |bits, i| bits | 1 << i);
@@ -123,31 +119,8 @@ impl<K: Kernel> Tree<K> {
         Tree { bvh, frame, expansions, blocks, leaf_blocks }
     }
 
-    /// The winding number at `q`: clusters farther than β times their radius by their expansion, the rest exactly
-    /// (Barill et al. 2018, algorithm 1). NaN where `q` is not finite.
-    pub fn at(&self, q: Vec3, order: Order, beta: f64, scratch: &mut Scratch) -> f64 {
-        if !q.is_finite() {
-            return f64::NAN;
-        }
-        let query = Positions::splat(self.frame.local(q));
-        let lanes = q.to_array().map(f64x4::splat);
-        let beta_squared = f32x4::splat((beta * beta) as f32);
-        let mut far = f32x4::splat(0.0);
-        let mut near = K::sum();
-        let visit = |node: usize, ()| {
-            let (field, is_far) = self.expansions[node].far_field(&query, order, beta_squared);
-            far += field;
-            (!is_far & 0b1111, [(); WIDTH])
-        };
-        let leaf = |node: usize, child: usize, ()| {
-            self.leaf(node, child).iter().for_each(|block| K::add(&mut near, block, &lanes));
-        };
-        self.bvh.traverse(&mut scratch.single, (), visit, leaf);
-        K::total(near) + sum_of_lanes(far)
-    }
-
     /// Winding numbers at up to [`BLOCK`] queries that lie close together, in one walk: each query takes the same clusters
-    /// as in [`Tree::at`], but a cluster is evaluated for four queries at a time.
+    /// as in [`Tree::bounded`], but a cluster is evaluated for four queries at a time.
     pub fn at_block(
         &self,
         queries: &[Vec3],

@@ -1,9 +1,8 @@
 //! The field of a cloud: the dual tree for many points, the tree of Barill et al. 2018 for few.
-use super::error_model::{CLOUD_ERROR, COARSE_BETA, FINE_BETA};
 use super::many::{InsideTest, Many};
-use crate::data::{BLOCK, Cancelled, Monitor, OrientedCloud};
+use crate::data::{Cancelled, Monitor, OrientedCloud};
 use crate::math::Vec3;
-use crate::treecode::{Order, Scratch, Targets, Tree, TreeConfig, direct_sums};
+use crate::treecode::{Scratch, Targets, Tree, TreeConfig, direct_sums};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
 
@@ -35,7 +34,7 @@ impl CloudField {
         self.many.bytes() + self.few.get().map_or(0, Tree::bytes)
     }
 
-    /// Points whose inside test needed the direct sum, in all tests of many points so far.
+    /// Points whose inside test needed the direct sum, in all tests so far.
     pub fn refined(&self) -> usize {
         self.refined.load(Relaxed)
     }
@@ -63,34 +62,12 @@ impl CloudField {
         Ok(())
     }
 
+    /// Whether w ≥ `threshold` at `q`, by bounds, at last by the direct sum.
     pub fn exceeds(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> bool {
-        let w = self.few().at(q, Order::Two, COARSE_BETA, scratch);
-        self.decide(q, w, threshold, scratch)
-    }
-
-    /// [`CloudField::exceeds`] at up to [`BLOCK`] points that lie close together.
-    pub fn exceeds_block(
-        &self,
-        points: &[Vec3],
-        threshold: f64,
-        results: &mut [bool],
-        scratch: &mut Scratch,
-    ) {
-        let mut values = [0.0; BLOCK];
-        self.few().at_block(points, &mut values[..points.len()], Order::Two, COARSE_BETA, scratch);
-        for ((q, w), result) in points.iter().zip(values).zip(results) {
-            *result = self.decide(*q, w, threshold, scratch);
-        }
-    }
-
-    /// Decides by the coarse value `w` at `q`, or by finer ones while these are within their error of the threshold.
-    fn decide(&self, q: Vec3, w: f64, threshold: f64, scratch: &mut Scratch) -> bool {
-        let certain = |w: f64, beta: f64| (w - threshold).abs() > CLOUD_ERROR.error(beta) || w.is_nan();
-        if certain(w, COARSE_BETA) {
-            return w >= threshold;
-        }
         let tree = self.few();
-        let w = tree.at(q, Order::Two, FINE_BETA, scratch);
-        if certain(w, FINE_BETA) { w >= threshold } else { tree.direct(q) >= threshold }
+        tree.reaches(q, threshold, scratch).unwrap_or_else(|| {
+            self.refined.fetch_add(1, Relaxed);
+            tree.direct(q) >= threshold
+        })
     }
 }

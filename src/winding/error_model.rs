@@ -7,11 +7,6 @@ pub struct ErrorModel {
 }
 
 impl ErrorModel {
-    pub fn error(&self, beta: f64) -> f64 {
-        let ratio = 4.0 / (beta * beta);
-        self.at_two * ratio * ratio
-    }
-
     pub fn beta(&self, error: f64) -> f64 {
         2.0 * (self.at_two / error).sqrt().sqrt().max(1.0)
     }
@@ -19,7 +14,3 @@ impl ErrorModel {
 
 pub const SOUP_ERROR: ErrorModel = ErrorModel { at_two: 8e-3 };
 pub const CLOUD_ERROR: ErrorModel = ErrorModel { at_two: 3e-2 };
-
-/// β of the first and the second look of a classification.
-pub const COARSE_BETA: f64 = 2.0;
-pub const FINE_BETA: f64 = 6.0;

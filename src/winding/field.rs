@@ -72,8 +72,6 @@ pub struct FieldReport {
     pub capped_components: usize,
     /// Components with so many openings that their triangles are summed singly.
     pub loose_components: usize,
-    /// Whether inside tests are proven right, and not only measured.
-    pub is_certified: bool,
     /// Nodes of the tree, if there is one.
     pub nodes: usize,
     /// Memory the field takes beside the shape when just built.
@@ -158,7 +156,7 @@ impl WindingField {
             }
     }
 
-    /// Points whose inside test needed an exact sum, in all tests so far; of a cloud, in those of many points.
+    /// Points whose inside test needed an exact sum, in all tests so far.
     pub fn refined(&self) -> usize {
         match &self.engine {
             Engine::Soup(soup) => soup.refined(),
@@ -189,8 +187,9 @@ impl WindingField {
 
     /// [`WindingField::at`] with scratch space that many queries share.
     pub fn at_with(&self, q: Vec3, accuracy: Accuracy, scratch: &mut Scratch) -> f64 {
-        if let (Engine::Cloud(cloud), Some((order, beta))) = (&self.engine, self.expansion_for(accuracy)) {
-            return cloud.few().at(q, order, beta, scratch);
+        if let (Engine::Cloud(cloud), Some((Order::Two, beta))) = (&self.engine, self.expansion_for(accuracy))
+        {
+            return cloud.few().bounded(q, beta, scratch).0;
         }
         let mut value = [0.0];
         self.at_block(&[q], &mut value, accuracy, scratch);
@@ -441,26 +440,12 @@ impl WindingField {
     /// Whether w ≥ `threshold` at `q`, as in [`WindingField::contains`].
     pub fn exceeds(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> bool {
         match &self.engine {
-            Engine::Soup(_) => {
+            Engine::Soup(soup) => {
                 let mut result = [false];
-                self.exceeds_block(&[q], threshold, &mut result, scratch);
+                soup.classify(&[q], threshold, &mut result, scratch);
                 result[0]
             }
             Engine::Cloud(cloud) => cloud.exceeds(q, threshold, scratch),
-        }
-    }
-
-    /// [`WindingField::exceeds`] at up to 64 points that lie close together.
-    pub fn exceeds_block(
-        &self,
-        points: &[Vec3],
-        threshold: f64,
-        results: &mut [bool],
-        scratch: &mut Scratch,
-    ) {
-        match &self.engine {
-            Engine::Soup(soup) => soup.classify(points, threshold, results, scratch),
-            Engine::Cloud(cloud) => cloud.exceeds_block(points, threshold, results, scratch),
         }
     }
 
@@ -498,7 +483,6 @@ fn report(shape: &Shape, engine: &Engine) -> FieldReport {
                 caps: soup.closure.caps.len(),
                 capped_components: counts.capped_components,
                 loose_components: counts.loose_components,
-                is_certified: soup.is_certified(),
                 nodes: soup.nodes(),
                 bytes: soup.bytes(),
             }

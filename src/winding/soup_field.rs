@@ -3,7 +3,6 @@ use super::answers::{INSIDE, answers, least_of};
 use super::boundary::BoundaryField;
 use super::closure::{Closure, ClosureCounts, crossings_of_caps};
 use super::curtain::{Curtain, LANES};
-use super::error_model::{COARSE_BETA, FINE_BETA, SOUP_ERROR};
 use super::exact::winding_of_soup;
 use super::facets::Facets;
 use super::gradient::edge_gradient;
@@ -20,9 +19,9 @@ use std::sync::{Arc, OnceLock};
 
 /// Up to this many boundary edges are summed exactly whatever the tolerance: that costs less than a walk.
 const FEW_EDGES: usize = 24;
-/// Up to this many boundary edges inside tests of scattered points are certified: what the answers of cells leave open is
-/// summed exactly, which takes too long with more.
-const CERTIFIED_EDGES: usize = 2000;
+/// Up to this many boundary edges, what the answers of cells leave open of inside tests of scattered points is summed at
+/// once; with more, bounds of estimates are asked before.
+const SUMMED_EDGES: usize = 2000;
 
 /// The threshold of an inside test.
 pub(super) const HALF: f64 = 0.5;
@@ -96,9 +95,9 @@ impl SoupField {
         self.closure.is_empty()
     }
 
-    /// Whether classifications are proven. On lattices they are with any number of boundary edges.
-    pub fn is_certified(&self) -> bool {
-        self.closure.loose.is_empty() && self.curtain.edges() <= CERTIFIED_EDGES
+    /// Whether the fraction takes so little time that cells have answers, and that estimates of it are not worth it.
+    fn is_summed(&self) -> bool {
+        self.closure.loose.is_empty() && self.curtain.edges() <= SUMMED_EDGES
     }
 
     /// Points whose classification needed an exact sum, since the field was built.
@@ -189,7 +188,7 @@ impl SoupField {
         if let Some(answers) = self.answers.get() {
             return answers;
         }
-        let is_known = self.is_closed() || !self.is_certified();
+        let is_known = self.is_closed() || !self.is_summed();
         let of_cells = if is_known { vec![] } else { answers(self, self.locator()) };
         let cap_area = self.closure.caps.iter().map(|cap| area_vector(*cap).length()).sum();
         let _ = self.answers.set(Answers { of_cells, cap_area });
@@ -327,24 +326,16 @@ impl SoupField {
         }
     }
 
-    /// Whether w ≥ `threshold` at up to [`BLOCK`] points: by estimates while these are farther from the threshold than
-    /// their error, at last exactly.
+    /// Whether w ≥ `threshold` at up to [`BLOCK`] points beside the surface: by bounds of estimates, at last exactly.
     fn classify_by_sums(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
         let mut open: Vec<usize> = (0..points.len()).collect();
-        if !self.is_certified() {
-            for beta in [COARSE_BETA, FINE_BETA] {
-                let near = |w: f64| (w - threshold).abs() <= SOUP_ERROR.error(beta);
-                let queries: Vec<Vec3> = open.iter().map(|k| points[*k]).collect();
-                let mut values = [0.0; BLOCK];
-                let by = FractionBy::Tree { order: Order::Two, beta };
-                self.values(&queries, by, &mut values[..queries.len()], scratch);
-                let mut values = values.into_iter();
-                open.retain(|k| {
-                    let w = values.next().expect("one value for each open point");
-                    results[*k] = w >= threshold;
-                    near(w)
-                });
-            }
+        if let Some(tree) = self.tree().filter(|_| !self.is_summed()) {
+            open.retain(|k| {
+                let crossings = self.crossings_at(points[*k]).unwrap_or(0);
+                let decided = tree.reaches(points[*k], threshold - f64::from(crossings), scratch);
+                results[*k] = decided.unwrap_or(false);
+                decided.is_none()
+            });
         }
         self.count_refined(open.len());
         let mut values = [0.0; BLOCK];

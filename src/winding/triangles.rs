@@ -34,12 +34,12 @@ impl Triangles {
     }
 }
 
-/// Four triangles, of which some may be caps.
+/// Four triangles.
 #[derive(Clone)]
 pub struct TriangleBlock {
     corners: [Lanes; 3],
-    /// One bit for each lane.
-    caps: u8,
+    /// Whether exact predicates tell the side of a query where rounding leaves it open.
+    is_decided: bool,
 }
 
 impl TriangleBlock {
@@ -47,7 +47,7 @@ impl TriangleBlock {
     pub fn new(triangles: [Option<[Vec3; 3]>; WIDTH]) -> TriangleBlock {
         let triangles = triangles.map(|t| t.unwrap_or([Vec3::ZERO; 3]));
         let lanes = |corner: usize, axis: usize| f64x4::from(triangles.map(|t| t[corner][axis]));
-        TriangleBlock { corners: [0, 1, 2].map(|c| [0, 1, 2].map(|axis| lanes(c, axis))), caps: 0 }
+        TriangleBlock { corners: [0, 1, 2].map(|c| [0, 1, 2].map(|axis| lanes(c, axis))), is_decided: false }
     }
 }
 
@@ -78,9 +78,8 @@ impl Kernel for Triangles {
     }
 
     fn block(&self, members: [Option<usize>; WIDTH]) -> TriangleBlock {
-        let is_cap = |k: &usize| members[*k].is_some_and(|i| i < self.caps());
-        let caps = (0..WIDTH).filter(is_cap).fold(0, |bits, k| bits | 1 << k);
-        TriangleBlock { caps, ..TriangleBlock::new(members.map(|m| m.map(|i| self.corners(i)))) }
+        let block = TriangleBlock::new(members.map(|m| m.map(|i| self.corners(i))));
+        TriangleBlock { is_decided: self.closure.is_some(), ..block }
     }
 
     fn sum() -> AngleProduct {
@@ -97,10 +96,10 @@ impl Kernel for Triangles {
         let mut numerator = dot(&a, &normal);
         let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
         let denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
-        if block.caps != 0 {
+        if block.is_decided {
             let size = la * dot(&u, &u).sqrt() * dot(&v, &v).sqrt();
             let is_small = numerator.abs().simd_le(f64x4::splat(ERROR) * size);
-            let doubtful = (is_small & denominator.simd_le(f64x4::ZERO)).to_bitmask() & u32::from(block.caps);
+            let doubtful = (is_small & denominator.simd_le(f64x4::ZERO)).to_bitmask();
             if doubtful != 0 {
                 numerator = decided(numerator, doubtful, block, q);
             }
@@ -123,8 +122,8 @@ impl Kernel for Triangles {
     }
 }
 
-/// Numerators with the sign that the exact predicate gives q' in the doubtful lanes, where the query lies on a cap or next
-/// to it: its solid angle then jumps exactly where its crossing does.
+/// Numerators with the sign that the exact predicate gives q' in the doubtful lanes, where the query lies on a triangle
+/// or next to it: the solid angle of a cap then jumps exactly where its crossing does.
 #[cold]
 fn decided(numerator: f64x4, doubtful: u32, block: &TriangleBlock, q: &Lanes) -> f64x4 {
     let mut parts = numerator.to_array();

@@ -1,8 +1,8 @@
 //! The gradient of the field by the same walk as its value.
-use super::{Scratch, Tree, sum_of_lanes};
+use super::{Scratch, Tree};
 use crate::bvh::WIDTH;
 use crate::math::Vec3;
-use crate::treecode::expansion::{Order, Positions};
+use crate::treecode::expansion::{Order, Positions, sum_of_lanes};
 use crate::treecode::kernel::{Kernel, Lanes};
 use std::f64::consts::PI;
 use wide::{f32x4, f64x4};
@@ -10,7 +10,7 @@ use wide::{f32x4, f64x4};
 const NOTHING: Lanes = [f64x4::ZERO; 3];
 
 impl<K: Kernel> Tree<K> {
-    /// The gradient of [`Tree::at`] at `q`, from the same clusters and the same sources. NaN where `q` is not finite.
+    /// The gradient of [`Tree::at_block`] at `q`, from the same clusters and the same sources. NaN where `q` is not finite.
     ///
     /// It is the derivative of the approximation within one choice of clusters; its error falls with one power of the
     /// distance more than the error of the value.

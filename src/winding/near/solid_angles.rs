@@ -8,23 +8,9 @@ use wide::{f32x4, f64x4};
 
 /// Who decides on which side of a triangle a query lies where rounding leaves it open.
 pub trait Sides {
-    /// False where nobody does: then no time is spent on finding out where it is open.
-    const DECIDES: bool;
-
     /// Numerators (a − q)·n with the right signs, n = (b − a) × (c − a), given computed ones; the bits of `open` tell the
     /// lanes in which the sign is not certain. A lane that stays 0 counts as in the plane and contributes nothing.
     fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, numerators: f64x4, open: u32) -> f64x4;
-}
-
-/// Computed signs are taken as they are.
-pub struct AsComputed;
-
-impl Sides for AsComputed {
-    const DECIDES: bool = false;
-
-    fn decide(&self, _: &[Vec3; 3], _: &Lanes, numerators: f64x4, _: u32) -> f64x4 {
-        numerators
-    }
 }
 
 /// Adds the solid angles of a triangle to the sums of some groups of queries, their signs decided by `sides`.
@@ -64,11 +50,9 @@ fn set_precisely<D: Sides>(
             continue;
         }
         let HalfAngle { numerator: mut numerators, denominator, error, .. } = triangle.half_angle(*q);
-        if D::DECIDES {
-            let open = numerators.abs().simd_le(error).to_bitmask();
-            if open != 0 {
-                numerators = sides.decide(corners, q, numerators, open);
-            }
+        let open = numerators.abs().simd_le(error).to_bitmask();
+        if open != 0 {
+            numerators = sides.decide(corners, q, numerators, open);
         }
         let [numerators, denominators] = [numerators, denominator].map(|v| v.to_array());
         for k in (0..LANES).filter(|k| lanes >> k & 1 == 1) {
@@ -137,9 +121,10 @@ impl NearTriangle {
 
     /// Adds the solid angles at a group of queries; `corners` gives the triangle as it is.
     #[inline(always)]
-    pub fn add<F: Floats<Number = f32>>(
+    pub fn add<F: Floats<Number = f32>, D: Sides>(
         &self,
         corners: impl Fn() -> [Vec3; 3],
+        sides: &D,
         queries: &QueryBlock,
         group: usize,
         sums: &mut Angles,
@@ -153,7 +138,7 @@ impl NearTriangle {
                 both[1].put(part, denominator);
                 let [numerators, denominators] = &mut both;
                 let lanes = (!safe & all) << part;
-                set_precisely(&corners(), &AsComputed, queries, group, lanes, [numerators, denominators]);
+                set_precisely(&corners(), sides, queries, group, lanes, [numerators, denominators]);
                 (numerator, denominator) = (both[0].get(part), both[1].get(part));
             }
             sums.add(part, denominator, numerator);
@@ -232,8 +217,9 @@ mod tests {
             let points = [middle, edge, a + 1e-9 * b, edge + distance * c].map(|p| p + distance * normal);
             let queries = block(points);
             let mut sums = [Angles::ZERO; GROUPS];
-            NearTriangle::new(TRIANGLE.map(single), single(normal), queries.reach).add::<f32x4>(
+            NearTriangle::new(TRIANGLE.map(single), single(normal), queries.reach).add::<f32x4, _>(
                 || TRIANGLE,
+                &AsComputed,
                 &queries,
                 0,
                 &mut sums[0],
@@ -248,12 +234,19 @@ mod tests {
         }
     }
 
+    /// Computed signs are taken as they are.
+    struct AsComputed;
+
+    impl Sides for AsComputed {
+        fn decide(&self, _: &[Vec3; 3], _: &Lanes, numerators: f64x4, _: u32) -> f64x4 {
+            numerators
+        }
+    }
+
     /// Puts every query in doubt on the side of a sign.
     struct Given(f64);
 
     impl Sides for Given {
-        const DECIDES: bool = true;
-
         fn decide(&self, corners: &[Vec3; 3], _: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
             assert_eq!(*corners, TRIANGLE);
             let mut values = numerators.to_array();

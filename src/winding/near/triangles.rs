@@ -13,12 +13,10 @@ use crate::winding::triangles::Triangles;
 use std::f64::consts::PI;
 use wide::f64x4;
 
-/// Caps are decided as their crossings are, so that the two jump at the same place.
+/// Triangles are decided as crossings are, so that the solid angles of caps jump where these do.
 struct AsCrossings;
 
 impl Sides for AsCrossings {
-    const DECIDES: bool = true;
-
     fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
         let mut parts = numerators.to_array();
         for k in (0..LANES).filter(|k| open >> k & 1 == 1) {
@@ -151,7 +149,13 @@ impl Work for NearTriangles<'_> {
                     let close = leaf.wanted & !far;
                     turned |= close;
                     for group in groups_of(close) {
-                        triangle.near.add::<R::Singles>(corners, queries, group, &mut angles[group]);
+                        triangle.near.add::<R::Singles, _>(
+                            corners,
+                            &AsCrossings,
+                            queries,
+                            group,
+                            &mut angles[group],
+                        );
                     }
                 }
             }

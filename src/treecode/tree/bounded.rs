@@ -1,0 +1,47 @@
+//! Values with bounds of their errors, and inside tests made of them.
+use super::{Scratch, Tree, sum_of_lanes};
+use crate::bvh::WIDTH;
+use crate::math::Vec3;
+use crate::treecode::expansion::{Positions, Remainder};
+use crate::treecode::kernel::Kernel;
+use wide::{f32x4, f64x4};
+
+/// β of the looks that an inside test takes: the first decides where w is near an integer, the last leaves open what is some
+/// 1e-3 from the threshold.
+const LOOKS: [f64; 3] = [2.0, 4.0, 10.0];
+/// Errors of the 64-bit sums over what is near.
+const ROUNDING_OF_SUMS: f64 = 1e-12;
+
+impl<K: Kernel> Tree<K> {
+    /// The winding number at `q`: clusters farther than β > 1 times their radius by their expansion of order 2, the rest
+    /// exactly (Barill et al. 2018, algorithm 1); and a bound of its error. NaN where `q` is not finite.
+    pub fn bounded(&self, q: Vec3, beta: f64, scratch: &mut Scratch) -> (f64, f64) {
+        if !q.is_finite() {
+            return (f64::NAN, f64::NAN);
+        }
+        let query = Positions::splat(self.frame.local(q));
+        let lanes = q.to_array().map(f64x4::splat);
+        let beta_squared = f32x4::splat((beta * beta) as f32);
+        let mut far = f32x4::splat(0.0);
+        let mut remainder = Remainder::NOTHING;
+        let mut near = K::sum();
+        let visit = |node: usize, ()| {
+            let (field, is_far) = self.expansions[node].bounded_field(&query, beta_squared, &mut remainder);
+            far += field;
+            (!is_far & 0b1111, [(); WIDTH])
+        };
+        let leaf = |node: usize, child: usize, ()| {
+            self.leaf(node, child).iter().for_each(|block| K::add(&mut near, block, &lanes));
+        };
+        self.bvh.traverse(&mut scratch.single, (), visit, leaf);
+        (K::total(near) + sum_of_lanes(far), remainder.bound(beta) + ROUNDING_OF_SUMS)
+    }
+
+    /// Whether w ≥ `threshold` at `q`, proven; none where only [`Tree::direct`] can tell.
+    pub fn reaches(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> Option<bool> {
+        LOOKS.into_iter().find_map(|beta| {
+            let (w, bound) = self.bounded(q, beta, scratch);
+            ((w - threshold).abs() > bound).then_some(w > threshold)
+        })
+    }
+}
