@@ -4,9 +4,7 @@ mod common;
 use common::*;
 use fast_winding::data::{Lattice, OrientedCloud, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3};
-use fast_winding::treecode::{
-    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Proof, Sources, Targets,
-};
+use fast_winding::treecode::{DualAccuracy, DualTree, LatticeTargets, PointTargets, Proof, Sources, Targets};
 use fast_winding::winding::{Triangles, winding_of_cloud, winding_of_soup};
 use std::sync::Arc;
 
@@ -24,11 +22,8 @@ const PRESETS: [(DualAccuracy, f64); 4] = [
 /// Values and bounds at all targets.
 fn evaluate(tree: &DualTree, targets: &dyn Targets, count: usize, accuracy: DualAccuracy) -> Vec<(f64, f64)> {
     let mut results = vec![(f64::INFINITY, 0.0); count];
-    let mut store = |indices: &[usize], outcome: Outcome<'_>| match outcome {
-        Outcome::Values { values, bound } => {
-            indices.iter().zip(values).for_each(|(i, v)| results[*i] = (*v, bound));
-        }
-        Outcome::Within { .. } => panic!("nothing was decided"),
+    let mut store = |indices: &[usize], values: &[f64], bound: f64| {
+        indices.iter().zip(values).for_each(|(i, v)| results[*i] = (*v, bound));
     };
     tree.evaluate(targets, &accuracy, &Silent, Proof::Bounds, &mut store).unwrap();
     results
@@ -121,7 +116,7 @@ fn nothing_has_no_field() {
     let points = [Vec3::ZERO, Vec3::ONE];
     assert_eq!(evaluate(&tree, &PointTargets::new(&points), 2, DualAccuracy::DEFAULT)[1].0, 0.0);
     let full = DualTree::build(of(&cube(1.0)), LEAF);
-    full.evaluate(&PointTargets::new(&[]), &DualAccuracy::DEFAULT, &Silent, Proof::Bounds, &mut |_, _| {
+    full.evaluate(&PointTargets::new(&[]), &DualAccuracy::DEFAULT, &Silent, Proof::Bounds, &mut |_, _, _| {
         panic!("there are no queries")
     })
     .unwrap();
@@ -233,36 +228,6 @@ fn bits_are_equal_for_any_number_of_threads() {
 }
 
 #[test]
-fn decided_blocks_hold_the_field_between_their_bounds() {
-    let soup = broken_torus();
-    let tree = DualTree::build(of(&soup), LEAF);
-    let lattice = Lattice::with_resolution(soup.bounds().padded(0.5), 48).unwrap();
-    let mut seen = vec![0; lattice.len()];
-    let mut decided_samples = 0;
-    let mut store = |indices: &[usize], outcome: Outcome<'_>| {
-        indices.iter().for_each(|i| seen[*i] += 1);
-        if let Outcome::Within { low, high } = outcome {
-            assert!(low >= 0.5 || high < 0.5);
-            decided_samples += indices.len();
-            for i in indices.iter().step_by(17) {
-                let w = winding_of_soup(&soup, lattice.point(lattice.sample(*i)));
-                assert!(low <= w && w <= high, "{w} is not in [{low}, {high}]");
-            }
-        }
-    };
-    tree.evaluate(
-        &LatticeTargets::new(&lattice),
-        &DualAccuracy::DEFAULT,
-        &Silent,
-        Proof::Decisions(&|_, low, high| low >= 0.5 || high < 0.5),
-        &mut store,
-    )
-    .unwrap();
-    assert!(seen.iter().all(|s| *s == 1));
-    assert!(decided_samples > lattice.len() / 4, "{decided_samples} of {}", lattice.len());
-}
-
-#[test]
 fn a_monitor_can_stop_the_evaluation() {
     let tree = DualTree::build(of(&cube(1.0)), LEAF);
     let lattice = Lattice::with_resolution(cube(1.0).bounds(), 120).unwrap();
@@ -272,7 +237,7 @@ fn a_monitor_can_stop_the_evaluation() {
         &DualAccuracy::DEFAULT,
         &monitor,
         Proof::Bounds,
-        &mut |_, _| {},
+        &mut |_, _, _| {},
     );
     assert!(result.is_err());
 }

@@ -10,8 +10,8 @@ mod moments;
 mod tree;
 
 pub use dual::{
-    BlockView, Cells, Decided, DualAccuracy, DualTree, GROUPS, LatticeTargets, NearLeaf, Octet, Outcome,
-    PointTargets, Proof, QueryBlock, QueryGroup, SourceKind, Sources, Targets, groups_of, parts, relative,
+    Cells, DualAccuracy, DualTree, GROUPS, LatticeTargets, NearLeaf, Octet, PointTargets, Proof, QueryBlock,
+    QueryGroup, SourceKind, Sources, Targets, groups_of, parts, relative,
 };
 pub use expansion::Order;
 pub use kernel::{Kernel, Lanes, Quadrature, direct_sums};

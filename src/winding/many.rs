@@ -2,7 +2,7 @@
 //! the points that these leave open, at last the direct sum.
 use crate::data::{Cancelled, Monitor, map_tasks};
 use crate::math::Vec3;
-use crate::treecode::{DualAccuracy, DualTree, Outcome, PointTargets, Proof, Sources, Targets};
+use crate::treecode::{DualAccuracy, DualTree, PointTargets, Proof, Sources, Targets};
 use std::sync::Arc;
 
 /// From so many scattered points on they are sorted into blocks; fewer are walked one by one.
@@ -23,8 +23,6 @@ pub struct Many {
 
 /// Answers for the queries of those indices, at those places.
 pub type Exactly<'a> = dyn Fn(&[usize], &[Vec3]) -> Vec<bool> + Sync + 'a;
-/// Takes indices of queries, the values there and a bound of their errors.
-type Give<'a> = &'a mut dyn FnMut(&[usize], &[f64], f64);
 
 /// An inside test at many points: w = `offset` + the field of the sources.
 pub struct InsideTest<'a> {
@@ -60,23 +58,8 @@ impl Many {
         values: &mut [f64],
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
-        self.each(targets, accuracy, Proof::Nothing, monitor, &mut |indices, found, _| {
+        self.tree.evaluate(targets, accuracy, monitor, Proof::Nothing, &mut |indices, found, _| {
             indices.iter().zip(found).for_each(|(index, w)| values[*index] += w);
-        })
-    }
-
-    fn each(
-        &self,
-        targets: &dyn Targets,
-        accuracy: &DualAccuracy,
-        proof: Proof,
-        monitor: &dyn Monitor,
-        give: Give,
-    ) -> Result<(), Cancelled> {
-        self.tree.evaluate(targets, accuracy, monitor, proof, &mut |indices, outcome| {
-            if let Outcome::Values { values, bound } = outcome {
-                give(indices, values, bound);
-            }
         })
     }
 
@@ -106,15 +89,27 @@ impl Many {
                 }
             };
             if look == 0 {
-                self.each(targets, &accuracy, Proof::Bounds, &named, &mut |indices, found, bound| {
-                    indices.iter().zip(found).for_each(|(index, w)| judge(*index, *w, bound));
-                })?;
+                self.tree.evaluate(
+                    targets,
+                    &accuracy,
+                    &named,
+                    Proof::Bounds,
+                    &mut |indices, found, bound| {
+                        indices.iter().zip(found).for_each(|(index, w)| judge(*index, *w, bound));
+                    },
+                )?;
             } else {
                 let points: Vec<Vec3> = open.iter().map(|&index| (test.point)(index)).collect();
                 let targets = PointTargets::new(&points);
-                self.each(&targets, &accuracy, Proof::Bounds, &again, &mut |places, found, bound| {
-                    places.iter().zip(found).for_each(|(k, w)| judge(open[*k], *w, bound));
-                })?;
+                self.tree.evaluate(
+                    &targets,
+                    &accuracy,
+                    &again,
+                    Proof::Bounds,
+                    &mut |places, found, bound| {
+                        places.iter().zip(found).for_each(|(k, w)| judge(open[*k], *w, bound));
+                    },
+                )?;
             }
             open = left;
         }

@@ -29,6 +29,11 @@ impl Triangles {
         self.closure.as_ref().map_or(0, |c| c.caps.len())
     }
 
+    /// Whether these are what a fraction is summed over: its jumps are where crossings have theirs.
+    pub(super) fn is_fraction(&self) -> bool {
+        self.closure.is_some()
+    }
+
     pub(super) fn of_fraction(soup: Arc<TriangleSoup>, closure: Arc<Closure>) -> Triangles {
         Triangles { soup, closure: Some(closure) }
     }
@@ -79,7 +84,7 @@ impl Kernel for Triangles {
 
     fn block(&self, members: [Option<usize>; WIDTH]) -> TriangleBlock {
         let block = TriangleBlock::new(members.map(|m| m.map(|i| self.corners(i))));
-        TriangleBlock { is_decided: self.closure.is_some(), ..block }
+        TriangleBlock { is_decided: self.is_fraction(), ..block }
     }
 
     fn sum() -> AngleProduct {

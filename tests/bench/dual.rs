@@ -2,9 +2,7 @@
 //! `RAYON_NUM_THREADS=1 cargo run --release --example dual -- [RESOLUTION] [ORDER DEGREE ERROR]…`.
 use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent, TriangleSoup};
 use fast_winding::math::Vec3;
-use fast_winding::treecode::{
-    DualAccuracy, DualTree, LatticeTargets, Outcome, PointTargets, Proof, Sources, Targets,
-};
+use fast_winding::treecode::{DualAccuracy, DualTree, LatticeTargets, PointTargets, Proof, Sources, Targets};
 use fast_winding::winding::{
     Accuracy, FieldConfig, Triangles, WindingField, winding_of_cloud, winding_of_soup,
 };
@@ -136,12 +134,10 @@ fn run(tree: &DualTree, targets: &dyn Targets, count: usize, accuracy: DualAccur
     let mut results = vec![0.0; count];
     let (mut sum, mut blocks) = (0.0, 0);
     let start = seconds();
-    let mut store = |indices: &[usize], outcome: Outcome<'_>| {
-        if let Outcome::Values { values, bound } = outcome {
-            indices.iter().zip(values).for_each(|(i, v)| results[*i] = *v);
-            sum += bound;
-            blocks += 1;
-        }
+    let mut store = |indices: &[usize], values: &[f64], bound: f64| {
+        indices.iter().zip(values).for_each(|(i, v)| results[*i] = *v);
+        sum += bound;
+        blocks += 1;
     };
     tree.evaluate(targets, &accuracy, &Silent, Proof::Bounds, &mut store).expect("nothing cancels");
     (seconds() - start, results, sum / f64::from(blocks))

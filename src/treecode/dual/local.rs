@@ -55,11 +55,6 @@ pub struct Local {
 impl Local {
     pub const ZERO: Local = Local { terms: [0.0; TERMS] };
 
-    /// Adds another polynomial about the same point, in the same unit.
-    pub fn add(&mut self, other: &Local) {
-        self.terms.iter_mut().zip(other.terms).for_each(|(sum, term)| *sum += term);
-    }
-
     /// Adds derivatives L_β of a harmonic function, given with 0 and 1 in z, octets to be summed. Those with more in
     /// z follow: L_(a,b,c) = −L_(a+2,b,c−2) − L_(a,b+2,c−2).
     pub fn add_derivatives(&mut self, reduced: &[Octet; REDUCED], degree: usize) {
@@ -126,25 +121,6 @@ impl Local {
             }
         }
         Local { terms }
-    }
-
-    /// The value in the middle, and how far the polynomial can be from it where |x|, |y|, |z| are up to `half`.
-    pub fn range(&self, half: [f64; 3], degree: usize) -> (f64, f64) {
-        let mut spread = 0.0;
-        let mut z = 1.0;
-        for c in 0..=degree {
-            let mut y = z;
-            for b in 0..=degree - c {
-                let mut x = y;
-                for a in 0..=degree - b - c {
-                    spread += x * self.terms[place_of(b, c) + a].abs();
-                    x *= half[0];
-                }
-                y *= half[1];
-            }
-            z *= half[2];
-        }
-        (self.terms[0], spread - self.terms[0].abs())
     }
 
     /// Adds the values at groups of queries, whose positions are `scale` times those given, moved by `shift`, in units of the
@@ -244,18 +220,6 @@ mod tests {
         for p in [[0.0f32; 3], [0.5, -0.25, 0.75], [-1.0, 0.5, 0.25]] {
             let old = [0.5 + 0.5 * p[0], -0.25 + 0.5 * p[1], 0.125 + 0.5 * p[2]];
             assert!((value(&moved, p) - value(&local, old)).abs() < 1e-5);
-        }
-    }
-
-    #[test]
-    fn range_holds_the_values() {
-        let local = Local { terms: std::array::from_fn(|i| ((i * 7919 % 31) as f64 - 15.0) / 15.0) };
-        let (middle, spread) = local.range([0.5, 0.25, 0.125], MAX_DEGREE);
-        assert_eq!(middle, value(&local, [0.0; 3]) as f32 as f64 + (middle - middle as f32 as f64));
-        for corner in 0..8u8 {
-            let sign = |bit: u8| if corner >> bit & 1 == 1 { 1.0 } else { -1.0f32 };
-            let at = [0.5 * sign(0), 0.25 * sign(1), 0.125 * sign(2)];
-            assert!((value(&local, at) - middle).abs() <= spread + 1e-6);
         }
     }
 }

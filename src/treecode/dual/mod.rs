@@ -25,8 +25,8 @@ mod walk;
 pub use accuracy::{DualAccuracy, SourceKind};
 pub use octet::{Octet, parts};
 pub use sources::{NearLeaf, QueryBlock, QueryGroup, Sources, groups_of, relative};
-pub use targets::{BlockView, Cells, LatticeTargets, PointTargets, Targets};
-pub use tree::{Decided, DualTree, Outcome, Proof};
+pub use targets::{Cells, LatticeTargets, PointTargets, Targets};
+pub use tree::{DualTree, Proof};
 
 use crate::data::BLOCK;
 use local::MAX_DEGREE;

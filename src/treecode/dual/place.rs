@@ -13,8 +13,6 @@ pub struct Place {
     /// The centre as the sum of two 32-bit floats: near a cluster a single one would lose the direction.
     high: [f32x4; 3],
     low: [f32x4; 3],
-    /// Half the edges of the block.
-    pub half: Vec3,
     /// A bound of the distance of a query from the centre; never 0, as lengths are measured in it.
     pub radius: f32,
 }
@@ -38,7 +36,6 @@ impl Place {
             center,
             high: parts.map(|p| f32x4::splat(p.0)),
             low: parts.map(|p| f32x4::splat(p.1)),
-            half,
             radius,
         }
     }

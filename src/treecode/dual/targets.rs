@@ -49,23 +49,6 @@ pub trait Targets: Sync {
     }
 }
 
-/// A block of queries, as callers see it.
-pub struct BlockView<'a> {
-    pub targets: &'a dyn Targets,
-    pub block: &'a Cells,
-}
-
-impl BlockView<'_> {
-    pub fn bounds(&self) -> Aabb {
-        self.targets.bounds(self.block)
-    }
-
-    /// Calls `sample(index, position)` for each query of the block.
-    pub fn for_each(&self, sample: &mut dyn FnMut(usize, Vec3)) {
-        self.targets.for_each(self.block, sample);
-    }
-}
-
 /// The samples of a lattice, all of its coordinates finite.
 pub struct LatticeTargets {
     lattice: Lattice,

@@ -9,11 +9,9 @@ use super::place::{Block, Place};
 use super::reach::{BlockReach, CLASSES, Reach};
 use super::sources::NearLeaf;
 use super::targets::Cells;
-use super::tree::Decided;
-use super::{BlockView, DualAccuracy, GROUPS, Sources, Targets, WIDTH};
+use super::{DualAccuracy, GROUPS, Sources, Targets, WIDTH};
 use crate::data::BLOCK;
 use crate::math::Vec3;
-use wide::f32x4;
 
 /// What does not change during walks.
 pub struct Walk<'a> {
@@ -22,21 +20,14 @@ pub struct Walk<'a> {
     pub sources: &'a dyn Sources,
     pub targets: &'a dyn Targets,
     pub accuracy: DualAccuracy,
-    /// Whether a block needs no values, as the field there is known to be between two numbers.
-    pub decided: Option<Decided<'a>>,
     /// Whether bounds of errors are asked for.
     pub is_bounded: bool,
 }
 
-/// What is known of a block: its values follow each other in [`Findings::values`].
-pub enum Finding {
-    Values { bound: f64 },
-    Within { low: f64, high: f64 },
-}
-
 /// What one task found.
 pub struct Findings {
-    pub blocks: Vec<(Cells, Finding)>,
+    /// Numbers of queries in the blocks, and bounds of their errors.
+    pub blocks: Vec<(usize, f64)>,
     pub values: Vec<f64>,
     /// Of the queries with these values.
     pub indices: Vec<usize>,
@@ -98,34 +89,22 @@ impl Walk<'_> {
         let is_leaf = self.targets.len(block) <= BLOCK;
         let mark = space.pending.len();
         let reach = BlockReach::new(place.radius, &self.accuracy);
-        let touches = self.sift(&place, &reach, from, space);
+        self.sift(&place, &reach, from, space);
         // A leaf takes the values of what it inherits as they are: moving the polynomial is more work.
         let mut own = if is_leaf {
             inherited.without_local(place)
         } else {
             inherited.moved_to(place, self.accuracy.degree)
         };
-        if !is_leaf || (self.decided.is_some() && !touches) {
+        if !is_leaf {
             self.add_far(&mut own, space);
-        }
-        if let Some(decided) = self.decided.filter(|_| !touches) {
-            let mut all = own;
-            if is_leaf {
-                all.local.add(&inherited.moved_to(place, self.accuracy.degree).local);
-            }
-            let (low, high) = self.range(&all, &space.pending[mark..]);
-            if decided(&BlockView { targets: self.targets, block }, low, high) {
-                findings.blocks.push((block.clone(), Finding::Within { low, high }));
-                space.pending.truncate(mark);
-                return;
-            }
         }
         if is_leaf {
             space.points.clear();
             self.targets.gather(block, &mut findings.indices, &mut space.points);
             space.block.set(&space.points, &bounds, &place, &self.clusters.frame);
             let bound = self.values(inherited, &mut own, &reach, mark, space, &mut findings.values);
-            findings.blocks.push((block.clone(), Finding::Values { bound }));
+            findings.blocks.push((space.points.len(), bound));
         } else {
             self.targets.split(block, &mut |child| self.descend(&child, &own, mark, space, findings));
         }
@@ -133,13 +112,12 @@ impl Walk<'_> {
     }
 
     /// Sorts the clusters `space.pending[from..]` into those far from the block (`space.far`) and those left to the blocks
-    /// below (appended to `space.pending`), opening the large ones. Answers whether one of the latter touches the block.
-    fn sift(&self, place: &Place, of_block: &BlockReach, from: usize, space: &mut Space) -> bool {
+    /// below (appended to `space.pending`), opening the large ones.
+    fn sift(&self, place: &Place, of_block: &BlockReach, from: usize, space: &mut Space) {
         let Space { pending, work, far, .. } = space;
         work.clear();
         work.extend_from_slice(&pending[from..]);
-        let (reach, small) = (f32x4::splat(place.radius), 0.5 * place.radius);
-        let mut touches = false;
+        let small = 0.5 * place.radius;
         let mut next = 0;
         while next < work.len() {
             let count = 4.min(work.len() - next);
@@ -148,7 +126,6 @@ impl Walk<'_> {
             next += count;
             let (offset, radius) = place.relative_to(four.map(|c| &self.clusters.balls[c as usize]));
             let distance = (offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2]).sqrt();
-            let is_apart = (distance * f32x4::splat(1.0 - 1e-6)).simd_gt(radius + reach).to_bitmask();
             let (distance, radius) = (distance.to_array(), radius.to_array());
             for (k, cluster) in four.into_iter().enumerate().take(count) {
                 let link = &self.clusters.links[cluster as usize];
@@ -156,14 +133,12 @@ impl Walk<'_> {
                 if let Some(class) = class {
                     far[class].push(cluster);
                 } else if link.is_leaf() || radius[k] < small {
-                    touches |= is_apart >> k & 1 == 0;
                     pending.push(cluster);
                 } else {
                     work.extend(link.range().map(|c| c as u32));
                 }
             }
         }
-        touches
     }
 
     fn add_far(&self, own: &mut Inherited, space: &mut Space) {
@@ -171,22 +146,6 @@ impl Walk<'_> {
         own.error +=
             far_fields.add(self.clusters, far, &own.place, &self.accuracy, self.is_bounded, &mut own.local);
         far.iter_mut().for_each(Vec::clear);
-    }
-
-    /// Bounds of the field over a block that no pending cluster touches.
-    fn range(&self, own: &Inherited, pending: &[u32]) -> (f64, f64) {
-        let radius = f64::from(own.place.radius);
-        let half = (own.place.half / radius).to_array();
-        let (middle, spread) = own.local.range(half, self.accuracy.degree);
-        let rest: f64 = (pending.iter())
-            .map(|&c| {
-                let (ball, area) = (&self.clusters.balls[c as usize], self.clusters.series[c as usize].area);
-                let gap = own.place.offset_of(ball).length() - f64::from(ball[3]) - radius;
-                f64::from(area) / (4.0 * std::f64::consts::PI * gap * gap)
-            })
-            .sum();
-        let around = ROUND_UP * (spread + own.error + rest) + ROUNDING_OF_SUMS;
-        (middle - around, middle + around)
     }
 
     /// Appends the values at the queries of a leaf; answers a bound of their errors.

@@ -13,11 +13,17 @@ use crate::winding::triangles::Triangles;
 use std::f64::consts::PI;
 use wide::f64x4;
 
-/// Triangles are decided as crossings are, so that the solid angles of caps jump where these do.
-struct AsCrossings;
+/// The sources of a fraction are decided as crossings are, so that the solid angles of caps jump where these do; where it is
+/// the principal value that is asked for, sides are taken as computed.
+struct AsCrossings {
+    is_fraction: bool,
+}
 
 impl Sides for AsCrossings {
     fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
+        if !self.is_fraction {
+            return numerators;
+        }
         let mut parts = numerators.to_array();
         for k in (0..LANES).filter(|k| open >> k & 1 == 1) {
             let q = Vec3::from_array([0, 1, 2].map(|axis| queries[axis].to_array()[k]));
@@ -122,6 +128,7 @@ impl Work for NearTriangles<'_> {
         let NearTriangles { triangles, near, items, queries, error, values } = self;
         let (mut dipoles, mut angles) = ([Octet::ZERO; GROUPS], [Angles::ZERO; GROUPS]);
         let (caps, reach) = (triangles.caps(), dipole_reach(error));
+        let sides = AsCrossings { is_fraction: triangles.is_fraction() };
         // Groups whose angles are not all 0.
         let mut turned = 0;
         let mut batch = [Prepared::default(); BATCH];
@@ -133,7 +140,7 @@ impl Work for NearTriangles<'_> {
                 for (triangle, i) in batch.iter().zip(members) {
                     let corners = || Kernel::corners(triangles, *i as usize);
                     if (*i as usize) < caps {
-                        add_precisely(&corners(), &AsCrossings, queries, leaf.wanted, &mut angles);
+                        add_precisely(&corners(), &sides, queries, leaf.wanted, &mut angles);
                         turned |= leaf.wanted;
                         continue;
                     }
@@ -151,7 +158,7 @@ impl Work for NearTriangles<'_> {
                     for group in groups_of(close) {
                         triangle.near.add::<R::Singles, _>(
                             corners,
-                            &AsCrossings,
+                            &sides,
                             queries,
                             group,
                             &mut angles[group],
