@@ -17,6 +17,7 @@ pub mod io;
 pub mod levelset;
 pub mod math;
 pub mod metrics;
+pub mod orient;
 pub mod slice;
 pub mod solid;
 pub mod surface;

@@ -7,6 +7,7 @@ mod expansion;
 mod frame;
 mod kernel;
 mod moments;
+mod mutual;
 mod tree;
 
 pub use dual::{
@@ -15,4 +16,5 @@ pub use dual::{
 };
 pub use expansion::Order;
 pub use kernel::{Kernel, Lanes, Quadrature, direct_sums};
+pub use mutual::Mutual;
 pub use tree::{Scratch, Tree, TreeConfig};

@@ -1,0 +1,224 @@
+//! Sums over all pairs of points of one cloud, again and again with other strengths: who acts on whom singly and which
+//! clusters act as a whole is found out once.
+//!
+//! Points are charges or dipoles; wanted are potentials or fields at the points themselves. Clusters act by a monopole, a
+//! dipole and a quadrupole about their middle.
+mod kernels;
+mod lists;
+mod series;
+
+use super::Octet;
+use crate::bvh::{Bvh, morton_code};
+use crate::data::{map_items, map_tasks};
+use crate::math::{Aabb, Vec3};
+use kernels::{Action, Block, Charges, Dipoles, Record};
+use lists::{Blocks, Lists};
+use series::{Clusters, Series};
+
+/// Most points in a leaf, which are also those summed for together.
+const LEAF: usize = 16;
+/// Points in one register of the widest kind.
+const WIDTH: usize = 8;
+/// Blocks that make a task.
+const BLOCKS_PER_TASK: usize = 32;
+
+/// The pairs of points of a cloud.
+///
+/// Strengths and results are in the order of the cloud.
+pub struct Mutual {
+    /// Points in the order of the Morton curve.
+    order: Vec<u32>,
+    places: Vec<[f32; 3]>,
+    clusters: Clusters,
+    blocks: Blocks,
+    lists: Lists,
+}
+
+impl Mutual {
+    /// Finds out who acts on whom: a cluster acts as a whole where it is farther than `opening` times its radius.
+    ///
+    /// Points are to be finite and within a few units of the origin.
+    pub fn new(points: &[Vec3], opening: f64) -> Mutual {
+        let bounds = Aabb::around(points.iter().copied());
+        let bvh = Bvh::along_curve(map_items(points.len(), |i| morton_code(points[i], &bounds)), LEAF);
+        let order = bvh.items().to_vec();
+        let sorted: Vec<Vec3> = order.iter().map(|i| points[*i as usize]).collect();
+        let clusters = Clusters::over(&bvh, &sorted);
+        let blocks = Blocks::of(&clusters, &sorted);
+        let lists = Lists::find(&clusters, &blocks, opening as f32);
+        let places = sorted.iter().map(|p| p.to_array().map(|x| x as f32)).collect();
+        Mutual { order, places, clusters, blocks, lists }
+    }
+
+    pub fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.order.is_empty()
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.order[..])
+            + size_of_val(&self.places[..])
+            + self.clusters.bytes()
+            + self.blocks.bytes()
+            + self.lists.bytes()
+    }
+
+    /// Potentials Σⱼ μⱼ·(pⱼ − pᵢ) / |pⱼ − pᵢ|³ over the points that are `width` or farther away: 4π times the winding numbers
+    /// of dipoles μ.
+    pub fn potentials(&self, dipoles: &[Vec3], width: f64) -> Vec<f64> {
+        let action = Dipoles { width: width as f32, is_bounded: false };
+        self.sum(&action, false, dipoles, |sums| f64::from(sums[0]))
+    }
+
+    /// The gradients of these; where `is_bounded`, each term of one point over (1 + |w| / π)^(3/2), w its own part of the
+    /// potential: those of the bounded winding number (*Leaps and Bounds*, eq. 49, times 4π).
+    pub fn gradients(&self, dipoles: &[Vec3], width: f64, is_bounded: bool) -> Vec<Vec3> {
+        self.sum(&Dipoles { width: width as f32, is_bounded }, true, dipoles, vector)
+    }
+
+    /// Σᵢ cᵢ (pⱼ − pᵢ) / |pⱼ − pᵢ|³ over the points that are `width` or farther away: the transpose of
+    /// [`Mutual::potentials`].
+    pub fn fields(&self, charges: &[f64], width: f64) -> Vec<Vec3> {
+        self.sum(&Charges { width: width as f32 }, true, charges, vector)
+    }
+
+    fn sum<A: Action, T: Copy + Send + Default>(
+        &self,
+        action: &A,
+        is_field: bool,
+        strengths: &[A::Strength],
+        result: impl Fn([f32; 3]) -> T + Sync,
+    ) -> Vec<T> {
+        let sorted: Vec<A::Strength> = self.order.iter().map(|i| strengths[*i as usize]).collect();
+        let series: Vec<Series> = self.clusters.series(|k| action.moments(sorted[k], self.places[k]));
+        let records: Vec<Record> = sorted
+            .iter()
+            .zip(&self.places)
+            .map(|(s, p)| Record { place: *p, strength: action.narrowed(*s) })
+            .collect();
+        let tasks = map_tasks(self.blocks.len().div_ceil(BLOCKS_PER_TASK), |task| {
+            let first = task * BLOCKS_PER_TASK;
+            let (mut sums, mut all) = (Vec::new(), Vec::new());
+            for k in first..self.blocks.len().min(first + BLOCKS_PER_TASK) {
+                let block = Block {
+                    groups: self.blocks.groups(k),
+                    far: self.lists.far(k),
+                    near: self.lists.near(k),
+                    series: &series,
+                    records: &records,
+                };
+                all.clear();
+                block.sums(action, is_field, &mut all);
+                sums.extend(all[..self.blocks.points(k).len()].iter().map(|s| result(*s)));
+            }
+            sums
+        });
+        let mut results = vec![T::default(); self.len()];
+        for (i, value) in self.order.iter().zip(tasks.into_iter().flatten()) {
+            results[*i as usize] = value;
+        }
+        results
+    }
+}
+
+fn vector(sums: [f32; 3]) -> Vec3 {
+    Vec3::from_array(sums.map(f64::from))
+}
+
+/// Coordinates of eight points.
+type Group = [Octet; 3];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points on a bumpy sphere, with strengths of any kind.
+    fn sample(count: usize) -> (Vec<Vec3>, Vec<Vec3>, Vec<f64>) {
+        let point = |i: usize| {
+            let z = 1.0 - 2.0 * (i as f64 + 0.5) / count as f64;
+            let (r, a) = ((1.0 - z * z).sqrt(), 2.4 * i as f64);
+            Vec3::new(r * a.cos(), r * a.sin(), z) * (1.0 + 0.1 * (3.0 * a).sin() * r)
+        };
+        let points: Vec<Vec3> = (0..count).map(point).collect();
+        let wave = |i: usize, k: f64| (k * i as f64).sin();
+        let turned = |i: usize| points[i] + 0.5 * Vec3::new(wave(i, 1.1), wave(i, 2.3), wave(i, 3.7));
+        let dipoles = (0..count).map(|i| 12.0 / count as f64 * turned(i)).collect();
+        let charges = (0..count).map(|i| 0.3 + wave(i, 5.1)).collect();
+        (points, dipoles, charges)
+    }
+
+    fn rms(values: impl Iterator<Item = f64>) -> f64 {
+        let (sum, count) = values.fold((0.0, 0.0), |(sum, count), v| (sum + v * v, count + 1.0));
+        (sum / f64::max(count, 1.0)).sqrt()
+    }
+
+    /// The sums by their definitions: potentials, gradients, bounded gradients, fields.
+    #[allow(clippy::type_complexity, reason = "four results")]
+    fn direct(
+        (points, dipoles, charges): &(Vec<Vec3>, Vec<Vec3>, Vec<f64>),
+        width: f64,
+    ) -> (Vec<f64>, Vec<Vec3>, Vec<Vec3>, Vec<Vec3>) {
+        let mut results = (vec![], vec![], vec![], vec![]);
+        for q in points {
+            let mut sums = (0.0, Vec3::ZERO, Vec3::ZERO, Vec3::ZERO);
+            for (k, p) in points.iter().enumerate() {
+                let d = *p - *q;
+                let r = d.length();
+                if r < width {
+                    continue;
+                }
+                let potential = d.dot(dipoles[k]) / r.powi(3);
+                let gradient = 3.0 * d.dot(dipoles[k]) * d / r.powi(5) - dipoles[k] / r.powi(3);
+                sums.0 += potential;
+                sums.1 += gradient;
+                sums.2 += gradient / (1.0 + potential.abs() / std::f64::consts::PI).powf(1.5);
+                sums.3 -= charges[k] * d / r.powi(3);
+            }
+            results.0.push(sums.0);
+            results.1.push(sums.1);
+            results.2.push(sums.2);
+            results.3.push(sums.3);
+        }
+        results
+    }
+
+    #[test]
+    fn sums_are_those_of_all_pairs() {
+        // With a wide cut, clusters are cut off whole.
+        let cases = [
+            (1, 0.1, 2.0, 1e-9),
+            (7, 0.1, 2.0, 1e-6),
+            (300, 0.05, 2.0, 1e-2),
+            (3000, 0.01, 2.0, 3e-2),
+            (3000, 0.01, 5.0, 5e-3),
+            (3000, 0.3, 2.0, 1e-1),
+        ];
+        for (count, width, opening, most) in cases {
+            let sample = sample(count);
+            let mutual = Mutual::new(&sample.0, opening);
+            let expected = direct(&sample, width);
+            let potentials = mutual.potentials(&sample.1, width);
+            let error = rms(potentials.iter().zip(&expected.0).map(|(a, b)| a - b));
+            let size = rms(expected.0.iter().copied()).max(1e-9);
+            println!("{count}, {width}: potentials {:.1e}", error / size);
+            assert!(error < most * size, "{count}: {error} of {size}");
+            let gradients = mutual.gradients(&sample.1, width, false);
+            let bounded = mutual.gradients(&sample.1, width, true);
+            let fields = mutual.fields(&sample.2, width);
+            for (name, found, expected) in [
+                ("gradients", gradients, &expected.1),
+                ("bounded", bounded, &expected.2),
+                ("fields", fields, &expected.3),
+            ] {
+                let error = rms(found.iter().zip(expected).map(|(a, b)| a.distance(*b)));
+                let size = rms(expected.iter().map(|v| v.length())).max(1e-9);
+                println!("{count}, {width}: {name} {:.1e}", error / size);
+                assert!(error < most * size, "{name} of {count}: {error} of {size}");
+            }
+        }
+    }
+}
