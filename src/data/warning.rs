@@ -35,7 +35,7 @@ pub enum WarningKind {
     TinyModel,
     /// The model's diagonal is above 2,000 mm: are its units micrometres?
     HugeModel,
-    /// Points carried no normals: they were estimated and oriented by propagation, which can fail on
+    /// Points carried no normals: they were estimated and oriented, which can fail on
     /// thin or sparse parts.
     EstimatedNormals,
     /// All points of a cloud without normals lie in a plane, on a line or in one place: it bounds no volume.

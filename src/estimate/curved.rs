@@ -37,12 +37,18 @@ fn curved_area(cell: &Cell) -> f64 {
 }
 
 /// A quadratic polynomial over the plane, in units of `scale`.
-struct Height {
+pub(super) struct Height {
     terms: [f64; TERMS],
     scale: f64,
 }
 
 impl Height {
+    pub fn at(&self, p: Vec2) -> f64 {
+        let [one, x, y, xx, xy, yy] = self.terms;
+        let p = p / self.scale;
+        self.scale * (one + x * p.x + y * p.y + xx * p.x * p.x + xy * p.x * p.y + yy * p.y * p.y)
+    }
+
     fn gradient(&self, p: Vec2) -> Vec2 {
         let [_, x, y, xx, xy, yy] = self.terms;
         let p = p / self.scale;
@@ -51,7 +57,7 @@ impl Height {
 }
 
 /// The least-squares height of the point at the origin and its neighbours; nothing where they leave it open.
-fn fit_height(neighbours: &[Vec3], scale: f64) -> Option<Height> {
+pub(super) fn fit_height(neighbours: &[Vec3], scale: f64) -> Option<Height> {
     let mut matrix = [[0.0; TERMS]; TERMS];
     let mut right = [0.0; TERMS];
     for p in [Vec3::ZERO].iter().chain(neighbours) {

@@ -4,10 +4,12 @@ mod curved;
 mod neighbours;
 mod normals;
 mod orientation;
+mod roughness;
 mod sites;
 mod voronoi;
 
 pub use areas::{AreaMethod, areas, complete_with};
+pub use roughness::{Roughness, roughness};
 
 use crate::data::{Cancelled, CloudError, Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
 use crate::math::{Vec3, fit_plane};
@@ -98,7 +100,7 @@ pub fn orient(
 }
 
 /// Whether the points lie in a plane, on a line or in one place.
-fn is_flat(points: &[Vec3]) -> bool {
+pub fn is_flat(points: &[Vec3]) -> bool {
     let [least, _, most] = fit_plane(points).variances;
     least <= FLAT * FLAT * most
 }

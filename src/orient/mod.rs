@@ -1,6 +1,56 @@
 //! Normals of clouds that have none: those that make the winding number consistent with itself.
+mod consistency;
 mod schedule;
-mod wnnc;
 
+pub use consistency::{Bounded, ConsistencyConfig, consistent_area_vectors};
 pub use schedule::Widths;
-pub use wnnc::{WnncConfig, WnncVariant, wnnc};
+
+use crate::data::{Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
+use crate::estimate::{self, EstimateConfig, EstimateError};
+use crate::math::Vec3;
+
+/// How normals are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OrientMethod {
+    /// Winding number normal consistency (Lin et al. 2024): all points at once.
+    Consistency(ConsistencyConfig),
+    /// Planes fitted to neighbours, oriented along a minimum spanning tree (Hoppe et al. 1992): a few times faster, but one
+    /// wrong edge inverts all that hangs on it.
+    Propagation,
+}
+
+impl Default for OrientMethod {
+    fn default() -> Self {
+        OrientMethod::Consistency(ConsistencyConfig::default())
+    }
+}
+
+/// The cloud with normals, outward, and areas: those it lacks are estimated. A warning says so; another tells of points without
+/// extent in space, for which nothing is outward: they take the method of propagation.
+///
+/// # Errors
+/// If and only if the cloud is empty, `monitor` cancels, or the cloud has normals, but no areas, and all its points are in one
+/// place.
+pub fn orient(
+    cloud: &PointCloud,
+    method: &OrientMethod,
+    monitor: &dyn Monitor,
+) -> Result<(OrientedCloud, Vec<Warning>), EstimateError> {
+    let config = EstimateConfig::default();
+    let points = cloud.points();
+    let consistency = match method {
+        OrientMethod::Consistency(consistency) if cloud.normals().is_none() && !estimate::is_flat(points) => {
+            consistency
+        }
+        _ => return estimate::orient(cloud, &config, monitor),
+    };
+    let part = |fraction: f64, stage: &str| monitor.report(0.9 * fraction, stage).is_ok();
+    let area_vectors = consistent_area_vectors(points, consistency, &part)?;
+    // Where the field has no slope at all, nothing is better than anything else.
+    let normals: Vec<Vec3> = area_vectors.iter().map(|v| v.try_normalize().unwrap_or(Vec3::Z)).collect();
+    let rest = |fraction: f64, stage: &str| monitor.report(0.9 + 0.1 * fraction, stage).is_ok();
+    let given = (points.to_vec(), Some(normals), cloud.areas().map(<[f64]>::to_vec));
+    let (with_normals, _) = PointCloud::cleaned(given.0, given.1, given.2)?;
+    let oriented = estimate::complete(&with_normals, &config, &rest)?;
+    Ok((oriented, vec![Warning::new(WarningKind::EstimatedNormals, points.len())]))
+}
