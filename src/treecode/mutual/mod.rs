@@ -11,9 +11,9 @@ use super::Octet;
 use crate::bvh::{Bvh, morton_code};
 use crate::data::{map_items, map_tasks};
 use crate::math::{Aabb, Vec3};
-use kernels::{Action, Block, Charges, Dipoles, Record};
+use kernels::{Block, Record, Sum};
 use lists::{Blocks, Lists};
-use series::{Clusters, Series};
+use series::Clusters;
 
 /// Most points in a leaf, which are also those summed for together.
 const LEAF: usize = 16;
@@ -70,39 +70,33 @@ impl Mutual {
     /// Potentials Σⱼ μⱼ·(pⱼ − pᵢ) / |pⱼ − pᵢ|³ over the points that are `width` or farther away: 4π times the winding numbers
     /// of dipoles μ.
     pub fn potentials(&self, dipoles: &[Vec3], width: f64) -> Vec<f64> {
-        let action = Dipoles { width: width as f32, is_bounded: false };
-        self.sum(&action, false, dipoles, |sums| f64::from(sums[0]))
+        let sums = self.sum(Sum::Potential, width, &|i| dipoles[i]);
+        sums.into_iter().map(|[sum, ..]| f64::from(sum)).collect()
     }
 
     /// The gradients of these; where `is_bounded`, each term of one point over (1 + |w| / π)^(3/2), w its own part of the
     /// potential: those of the bounded winding number (*Leaps and Bounds*, eq. 49, times 4π).
     pub fn gradients(&self, dipoles: &[Vec3], width: f64, is_bounded: bool) -> Vec<Vec3> {
-        self.sum(&Dipoles { width: width as f32, is_bounded }, true, dipoles, vector)
+        let sum = if is_bounded { Sum::BoundedGradient } else { Sum::Gradient };
+        vectors(self.sum(sum, width, &|i| dipoles[i]))
     }
 
     /// Σᵢ cᵢ (pⱼ − pᵢ) / |pⱼ − pᵢ|³ over the points that are `width` or farther away: the transpose of
     /// [`Mutual::potentials`].
     pub fn fields(&self, charges: &[f64], width: f64) -> Vec<Vec3> {
-        self.sum(&Charges { width: width as f32 }, true, charges, vector)
+        vectors(self.sum(Sum::Field, width, &|i| Vec3::new(charges[i], 0.0, 0.0)))
     }
 
-    fn sum<A: Action, T: Copy + Send + Default>(
-        &self,
-        action: &A,
-        is_field: bool,
-        strengths: &[A::Strength],
-        result: impl Fn([f32; 3]) -> T + Sync,
-    ) -> Vec<T> {
-        let sorted: Vec<A::Strength> = self.order.iter().map(|i| strengths[*i as usize]).collect();
-        let series: Vec<Series> = self.clusters.series(|k| action.moments(sorted[k], self.places[k]));
-        let records: Vec<Record> = sorted
-            .iter()
-            .zip(&self.places)
-            .map(|(s, p)| Record { place: *p, strength: action.narrowed(*s) })
-            .collect();
+    fn sum(&self, sum: Sum, width: f64, strength: &(dyn Fn(usize) -> Vec3 + Sync)) -> Vec<[f32; 3]> {
+        let sorted: Vec<Vec3> = self.order.iter().map(|i| strength(*i as usize)).collect();
+        let single = |v: Vec3| v.to_array().map(|x| x as f32);
+        let of_point = |k: usize| (Vec3::from_array(self.places[k].map(f64::from)), sum.moments(sorted[k]));
+        let series = self.clusters.series(&of_point);
+        let record = |(place, strength): (&[f32; 3], &Vec3)| Record { place: *place, strength: single(*strength) };
+        let records: Vec<Record> = self.places.iter().zip(&sorted).map(record).collect();
         let tasks = map_tasks(self.blocks.len().div_ceil(BLOCKS_PER_TASK), |task| {
             let first = task * BLOCKS_PER_TASK;
-            let (mut sums, mut all) = (Vec::new(), Vec::new());
+            let mut sums = Vec::new();
             for k in first..self.blocks.len().min(first + BLOCKS_PER_TASK) {
                 let block = Block {
                     groups: self.blocks.groups(k),
@@ -110,14 +104,15 @@ impl Mutual {
                     near: self.lists.near(k),
                     series: &series,
                     records: &records,
+                    width: width as f32,
                 };
-                all.clear();
-                block.sums(action, is_field, &mut all);
-                sums.extend(all[..self.blocks.points(k).len()].iter().map(|s| result(*s)));
+                let end = sums.len() + self.blocks.points(k).len();
+                block.add(sum, &mut sums);
+                sums.truncate(end);
             }
             sums
         });
-        let mut results = vec![T::default(); self.len()];
+        let mut results = vec![[0.0; 3]; self.len()];
         for (i, value) in self.order.iter().zip(tasks.into_iter().flatten()) {
             results[*i as usize] = value;
         }
@@ -125,8 +120,8 @@ impl Mutual {
     }
 }
 
-fn vector(sums: [f32; 3]) -> Vec3 {
-    Vec3::from_array(sums.map(f64::from))
+fn vectors(sums: Vec<[f32; 3]>) -> Vec<Vec3> {
+    sums.into_iter().map(|sum| Vec3::from_array(sum.map(f64::from))).collect()
 }
 
 /// Coordinates of eight points.

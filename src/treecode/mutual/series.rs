@@ -98,7 +98,7 @@ impl Clusters {
     }
 
     /// The moments of all clusters, given those of each point about its own place, which is given too.
-    pub fn series(&self, of_point: impl Fn(usize) -> (Vec3, Moments) + Sync) -> Vec<Series> {
+    pub fn series(&self, of_point: &(dyn Fn(usize) -> (Vec3, Moments) + Sync)) -> Vec<Series> {
         let mut moments = vec![Moments::ZERO; self.len()];
         for level in self.levels.iter().rev() {
             let (upper, lower) = moments.split_at_mut(level.end);
