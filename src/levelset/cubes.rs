@@ -1,7 +1,7 @@
 //! Marching cubes by continuation: a closed, manifold, outward-oriented surface of an inside test.
-use super::crossing;
 use super::cube_cases::{EDGES, TRIANGLES};
 use super::seeds::Cell;
+use super::{At, crossing};
 use crate::data::{Cancelled, Monitor, SurfaceMesh, fill_in_blocks, sort_keyed};
 use crate::math::Vec3;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -46,14 +46,14 @@ fn corner_of([x, y, z]: Cell, corner: usize) -> Cell {
 /// Traces the surface of {inside} through all cells connected to a seed. Every vertex is found by bisection on an edge
 /// of the grid; triangles are counter-clockwise seen from outside.
 ///
-/// `inside` gets a position and scratch space; it is called from many threads.
+/// `inside` gets a position, what that is, and scratch space; it is called from many threads.
 ///
 /// # Errors
 /// If and only if the surface spans more than half a million cells, or the monitor cancels.
 pub fn trace_surface<S: Default>(
     grid: &SurfaceGrid,
     seeds: &[Cell],
-    inside: impl Fn(Vec3, &mut S) -> bool + Sync,
+    inside: impl Fn(Vec3, At, &mut S) -> bool + Sync,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, TraceError> {
     let mut continuation =
@@ -96,7 +96,7 @@ struct Continuation<'a, F, S> {
     scratch: PhantomData<fn() -> S>,
 }
 
-impl<S: Default, F: Fn(Vec3, &mut S) -> bool + Sync> Continuation<'_, F, S> {
+impl<S: Default, F: Fn(Vec3, At, &mut S) -> bool + Sync> Continuation<'_, F, S> {
     fn position(&self, [x, y, z]: Cell) -> Vec3 {
         self.grid.origin + self.grid.spacing * Vec3::new(f64::from(x), f64::from(y), f64::from(z))
     }
@@ -136,7 +136,8 @@ impl<S: Default, F: Fn(Vec3, &mut S) -> bool + Sync> Continuation<'_, F, S> {
         missing.sort_unstable();
         missing.dedup();
         let mut values = vec![false; missing.len()];
-        let value = |i: usize, scratch: &mut S| (self.inside)(self.position(cell_of(missing[i])), scratch);
+        let value =
+            |i: usize, scratch: &mut S| (self.inside)(self.position(cell_of(missing[i])), At::Node, scratch);
         // How far a continuation has to go is not known: progress begins with the vertices.
         let undetermined = |_: f64, stage: &str| monitor.report(0.0, stage).is_ok();
         fill_in_blocks(&mut values, value, "surface cells", &undetermined)?;
@@ -150,7 +151,7 @@ impl<S: Default, F: Fn(Vec3, &mut S) -> bool + Sync> Continuation<'_, F, S> {
             let (node, axis) = (cell_of(edges[i]), (edges[i] >> 60) as usize);
             let start = self.position(node);
             let at = |t: f64| start + t * self.grid.spacing * Vec3::AXES[axis];
-            at(crossing(self.nodes[&key(node)], |t| (self.inside)(at(t), scratch)))
+            at(crossing(self.nodes[&key(node)], |t| (self.inside)(at(t), At::Edge, scratch)))
         };
         fill_in_blocks(&mut positions, vertex, "surface vertices", monitor)?;
         Ok(positions)
@@ -197,7 +198,7 @@ mod tests {
             .iter()
             .map(|p| crate::levelset::cells_of_point(*p, grid.origin, Vec3::splat(spacing)))
             .collect();
-        trace_surface(&grid, &cells, |p, ()| inside(p), &Silent).unwrap()
+        trace_surface(&grid, &cells, |p, _, ()| inside(p), &Silent).unwrap()
     }
 
     #[test]
@@ -221,7 +222,7 @@ mod tests {
     fn random_cells_still_make_a_manifold() {
         // All 256 cases, next to each other in all ways: a hash of the node decides.
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
-        let inside = |p: Vec3, (): &mut ()| {
+        let inside = |p: Vec3, _: At, (): &mut ()| {
             let n = p.round();
             let in_box = n.cmpgt(Vec3::ZERO).all() && n.cmplt(Vec3::splat(14.0)).all();
             let h = (n.x * 7919.0 + n.y * 104_729.0 + n.z * 1_299_709.0).sin() * 43_758.545;
@@ -237,6 +238,6 @@ mod tests {
     fn surfaces_too_large_for_the_keys_are_refused() {
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
         let cell = [LIMIT, 0, 0];
-        assert_eq!(trace_surface(&grid, &[cell], |_, ()| true, &Silent), Err(TraceError::TooFine));
+        assert_eq!(trace_surface(&grid, &[cell], |_, _, ()| true, &Silent), Err(TraceError::TooFine));
     }
 }

@@ -9,6 +9,15 @@ pub use cubes::{SurfaceGrid, TraceError, trace_surface};
 pub use seeds::{Cell, cells_of_point, cells_of_shape, cells_of_triangle};
 pub use squares::{PlaneGrid, trace_contours};
 
+/// Where an inside test is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum At {
+    /// At a node of the grid or amid a cell: the answer decides how the level set hangs together.
+    Node,
+    /// Between two nodes of which one is inside: the answer only moves the vertex there.
+    Edge,
+}
+
 /// Steps of bisection on a crossed edge: to a millionth of it.
 const BISECTIONS: u32 = 20;
 

@@ -1,5 +1,5 @@
 //! Marching squares by continuation: closed contours of an inside test in a plane.
-use super::crossing;
+use super::{At, crossing};
 use crate::data::Ring;
 use crate::math::Vec2;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -42,7 +42,7 @@ impl PlaneGrid {
 pub fn trace_contours(
     grid: &PlaneGrid,
     seeds: impl IntoIterator<Item = [i32; 2]>,
-    inside: impl FnMut(Vec2) -> bool,
+    inside: impl FnMut(Vec2, At) -> bool,
 ) -> Vec<Ring> {
     let mut tracer = Tracer { grid, inside, nodes: FxHashMap::default() };
     let mut next_edge: FxHashMap<Edge, Edge> = FxHashMap::default();
@@ -88,10 +88,10 @@ struct Tracer<'a, F> {
     nodes: FxHashMap<Square, bool>,
 }
 
-impl<F: FnMut(Vec2) -> bool> Tracer<'_, F> {
+impl<F: FnMut(Vec2, At) -> bool> Tracer<'_, F> {
     fn is_inside(&mut self, node: Square) -> bool {
         let (grid, inside) = (self.grid, &mut self.inside);
-        *self.nodes.entry(node).or_insert_with(|| inside(grid.node(node)))
+        *self.nodes.entry(node).or_insert_with(|| inside(grid.node(node), At::Node))
     }
 
     /// The contour's segments in a cell, from side to side, the inside on their left.
@@ -105,7 +105,8 @@ impl<F: FnMut(Vec2) -> bool> Tracer<'_, F> {
             return ends.into_iter().zip(begins).collect();
         }
         // A saddle: the middle tells whether the inside corners are joined or cut off singly.
-        let joined = (self.inside)(self.grid.node([i, j]) + 0.5 * Vec2::splat(self.grid.spacing));
+        let middle = self.grid.node([i, j]) + 0.5 * Vec2::splat(self.grid.spacing);
+        let joined = (self.inside)(middle, At::Node);
         let turn = if joined { 1 } else { 3 };
         ends.iter().map(|&end| (end, (end + turn) % 4)).collect()
     }
@@ -132,7 +133,7 @@ impl<F: FnMut(Vec2) -> bool> Tracer<'_, F> {
         let at_zero = self.is_inside(edge.node);
         let (a, b) = (self.grid.node(edge.node), self.grid.node(far));
         let inside = &mut self.inside;
-        a.lerp(b, crossing(at_zero, |t| inside(a.lerp(b, t))))
+        a.lerp(b, crossing(at_zero, |t| inside(a.lerp(b, t), At::Edge)))
     }
 }
 
@@ -165,7 +166,7 @@ mod tests {
     fn ring_around_a_hole_gives_two_contours_of_opposite_turn() {
         let annulus = |p: Vec2| (0.5..=1.0).contains(&p.length());
         let seeds = [GRID.cell(Vec2::X), GRID.cell(0.5 * Vec2::Y)];
-        let rings = trace_contours(&GRID, seeds, annulus);
+        let rings = trace_contours(&GRID, seeds, |p, _| annulus(p));
         let mut areas: Vec<f64> = rings.iter().map(|r| signed_area(r)).collect();
         areas.sort_by(f64::total_cmp);
         assert_eq!(areas.len(), 2);
@@ -178,7 +179,7 @@ mod tests {
     #[test]
     fn straight_sides_keep_only_their_ends() {
         let square = |p: Vec2| p.abs().max_element() <= 1.0;
-        let rings = trace_contours(&GRID, [GRID.cell(Vec2::new(1.0, 0.3))], square);
+        let rings = trace_contours(&GRID, [GRID.cell(Vec2::new(1.0, 0.3))], |p, _| square(p));
         assert_eq!(rings.len(), 1);
         assert_eq!(rings[0].len(), 8, "four sides, four cut corners");
         assert!((signed_area(&rings[0]) - 4.0).abs() < 4.0 * GRID.spacing * GRID.spacing);
@@ -188,13 +189,13 @@ mod tests {
     fn every_saddle_closes() {
         let checkers = |p: Vec2| (p.x * 23.0).sin() * (p.y * 19.0).sin() > 0.1 && p.length() < 1.2;
         let seeds = (0..80).flat_map(|i| (0..80).map(move |j| [i, j]));
-        let rings = trace_contours(&GRID, seeds, checkers);
+        let rings = trace_contours(&GRID, seeds, |p, _| checkers(p));
         assert!(rings.len() > 50);
         assert!(rings.iter().all(|r| signed_area(r) != 0.0));
     }
 
     #[test]
     fn nothing_inside_gives_no_ring() {
-        assert!(trace_contours(&GRID, [[0, 0]], |_| false).is_empty());
+        assert!(trace_contours(&GRID, [[0, 0]], |_, _| false).is_empty());
     }
 }

@@ -1,7 +1,7 @@
 use super::{SliceConfig, Span, nesting};
 use crate::bvh::Bvh;
 use crate::data::{Lattice, LatticeError, Layer, Shape, TriangleSoup, map_items, sorted_pairs};
-use crate::levelset::{PlaneGrid, trace_contours};
+use crate::levelset::{At, PlaneGrid, trace_contours};
 use crate::math::{Aabb, Vec2, Vec3};
 use crate::winding::{Scratch, WindingField};
 
@@ -46,7 +46,10 @@ impl<'a> Slicer<'a> {
     /// The polygons of one layer.
     pub fn layer(&self, span: &Span) -> Layer {
         let mut scratch = Scratch::default();
-        let mut inside = |p: Vec2| self.field.is_above(p.extend(span.sample), 0.5, &mut scratch);
+        let mut inside = |p: Vec2, at: At| match at {
+            At::Node => self.field.is_above(p.extend(span.sample), 0.5, &mut scratch),
+            At::Edge => self.field.is_nearly_above(p.extend(span.sample), 0.5, &mut scratch),
+        };
         let mut seeds = self.seeds_of_geometry(span.sample);
         seeds.extend(self.seeds_of_scan(&mut inside));
         // Biased, so that negative numbers come first.
@@ -91,12 +94,12 @@ impl<'a> Slicer<'a> {
     }
 
     /// Cells where the level set crosses the lines of a coarse scan over the bounds and a little beyond.
-    fn seeds_of_scan(&self, inside: &mut impl FnMut(Vec2) -> bool) -> Vec<[i32; 2]> {
+    fn seeds_of_scan(&self, inside: &mut impl FnMut(Vec2, At) -> bool) -> Vec<[i32; 2]> {
         let longest = self.cells[0].max(self.cells[1]);
         let stride = (longest as usize).div_ceil(SCAN_NODES) as i32;
         let [nx, ny] = self.cells.map(|c| c / stride + 4);
         let node = |i: i32, j: i32| [(i - 1) * stride, (j - 1) * stride];
-        let mut at = |n: [i32; 2]| inside(self.grid.node(n));
+        let mut at = |n: [i32; 2]| inside(self.grid.node(n), At::Node);
         let values: Vec<bool> = (0..nx * ny).map(|k| at(node(k % nx, k / nx))).collect();
         let mut seeds = Vec::new();
         for k in 0..nx * ny {

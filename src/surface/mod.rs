@@ -1,6 +1,6 @@
 //! Surfaces from a field: its level set as a mesh.
 use crate::data::{Lattice, LatticeError, Monitor, SurfaceMesh};
-use crate::levelset::{SurfaceGrid, TraceError, cells_of_shape, trace_surface};
+use crate::levelset::{At, SurfaceGrid, TraceError, cells_of_shape, trace_surface};
 use crate::math::Vec3;
 use crate::winding::{Scratch, WindingField};
 
@@ -52,6 +52,9 @@ pub fn extract(
     let grid = SurfaceGrid { origin: lattice.origin, spacing: lattice.spacing.x };
     let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
     field.prepare_single_points();
-    let inside = |p: Vec3, scratch: &mut Scratch| field.is_above(p, config.level, scratch);
+    let inside = |p: Vec3, at: At, scratch: &mut Scratch| match at {
+        At::Node => field.is_above(p, config.level, scratch),
+        At::Edge => field.is_nearly_above(p, config.level, scratch),
+    };
     Ok(trace_surface(&grid, &seeds, inside, monitor)?)
 }

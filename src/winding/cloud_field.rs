@@ -65,9 +65,11 @@ impl CloudField {
     /// Whether w ≥ `threshold` at `q`, by bounds, at last by the direct sum.
     pub fn exceeds(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> bool {
         let tree = self.few();
-        tree.reaches(q, threshold, scratch).unwrap_or_else(|| {
-            self.refined.fetch_add(1, Relaxed);
-            tree.direct(q) >= threshold
-        })
+        let reaches = tree.reaches(q, threshold, scratch);
+        if reaches.is_proven {
+            return reaches.threshold;
+        }
+        self.refined.fetch_add(1, Relaxed);
+        tree.direct(q) >= threshold
     }
 }

@@ -398,7 +398,7 @@ impl WindingField {
                 results.iter_mut().enumerate().for_each(singly);
             }
             Engine::Soup(soup) => {
-                soup.classify(&points[start..start + results.len()], HALF, results, scratch);
+                soup.classify(&points[start..start + results.len()], HALF, true, results, scratch);
             }
         };
         fill_blocks(&mut inside, INSIDE_TESTS, block, "inside test", monitor)?;
@@ -442,19 +442,32 @@ impl WindingField {
         match &self.engine {
             Engine::Soup(soup) => {
                 let mut result = [false];
-                soup.classify(&[q], threshold, &mut result, scratch);
+                soup.classify(&[q], threshold, true, &mut result, scratch);
                 result[0]
             }
             Engine::Cloud(cloud) => cloud.exceeds(q, threshold, scratch),
         }
     }
 
-    /// Whether w ≥ `level` at `q`, for tracing level sets: the same answer each time, and for clouds without the direct sum
-    /// that [`WindingField::exceeds`] falls back on next to the level set, where tracing spends its time.
+    /// Whether w ≥ `level` at `q`, for tracing level sets: the same answer each time. For soups as [`WindingField::exceeds`]; for
+    /// clouds without the direct sum that this falls back on next to the level set, where tracing spends its time.
     pub fn is_above(&self, q: Vec3, level: f64, scratch: &mut Scratch) -> bool {
         match &self.engine {
             Engine::Soup(_) => self.exceeds(q, level, scratch),
             Engine::Cloud(_) => self.at_with(q, Accuracy::of_paper(&self.shape), scratch) >= level,
+        }
+    }
+
+    /// As [`WindingField::is_above`], but a soup's loose triangles are not summed directly either: what is next to the level set may
+    /// be on either side, by some 1e-5 of w. For where an edge crosses it.
+    pub fn is_nearly_above(&self, q: Vec3, level: f64, scratch: &mut Scratch) -> bool {
+        match &self.engine {
+            Engine::Soup(soup) => {
+                let mut result = [false];
+                soup.classify(&[q], level, false, &mut result, scratch);
+                result[0]
+            }
+            Engine::Cloud(_) => self.is_above(q, level, scratch),
         }
     }
 }

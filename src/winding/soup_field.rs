@@ -308,8 +308,16 @@ impl SoupField {
         self.principal(q, &self.locator().locate(self.facets(), q, true).touching)
     }
 
-    /// Whether w ≥ `threshold`: by crossings alone where the fraction does not matter, elsewhere by sums.
-    pub fn classify(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
+    /// Whether w ≥ `threshold`: by crossings alone where the fraction does not matter, elsewhere by sums; where it is not
+    /// `exactly` that is asked, by estimates of these that may be wrong next to the threshold.
+    pub fn classify(
+        &self,
+        points: &[Vec3],
+        threshold: f64,
+        exactly: bool,
+        results: &mut [bool],
+        scratch: &mut Scratch,
+    ) {
         let answers = self.answers();
         let mut open = Vec::new();
         self.glance(answers, points, threshold, results, &mut open);
@@ -321,20 +329,27 @@ impl SoupField {
         for some in open.chunks(BLOCK) {
             let queries: Vec<Vec3> = some.iter().map(|k| points[*k]).collect();
             let mut inside = [false; BLOCK];
-            self.classify_by_sums(&queries, threshold, &mut inside, scratch);
+            self.classify_by_sums(&queries, threshold, exactly, &mut inside, scratch);
             some.iter().zip(inside).for_each(|(k, inside)| results[*k] = inside);
         }
     }
 
     /// Whether w ≥ `threshold` at up to [`BLOCK`] points beside the surface: by bounds of estimates, at last exactly.
-    fn classify_by_sums(&self, points: &[Vec3], threshold: f64, results: &mut [bool], scratch: &mut Scratch) {
+    fn classify_by_sums(
+        &self,
+        points: &[Vec3],
+        threshold: f64,
+        exactly: bool,
+        results: &mut [bool],
+        scratch: &mut Scratch,
+    ) {
         let mut open: Vec<usize> = (0..points.len()).collect();
         if let Some(tree) = self.tree().filter(|_| !self.is_summed()) {
             open.retain(|k| {
                 let crossings = self.crossings_at(points[*k]).unwrap_or(0);
-                let decided = tree.reaches(points[*k], threshold - f64::from(crossings), scratch);
-                results[*k] = decided.unwrap_or(false);
-                decided.is_none()
+                let reaches = tree.reaches(points[*k], threshold - f64::from(crossings), scratch);
+                results[*k] = reaches.threshold;
+                exactly && !reaches.is_proven
             });
         }
         self.count_refined(open.len());

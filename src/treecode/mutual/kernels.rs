@@ -134,12 +134,7 @@ fn along<F: Floats<Number = f32>>([x, y, z]: [F; 3], [a, b, c]: [f32; 3]) -> F {
 
 /// (`along` · offset − strength) · `factor`.
 #[inline(always)]
-fn gradient<F: Floats<Number = f32>>(
-    [x, y, z]: [F; 3],
-    [a, b, c]: [f32; 3],
-    along: F,
-    factor: F,
-) -> [F; 3] {
+fn gradient<F: Floats<Number = f32>>([x, y, z]: [F; 3], [a, b, c]: [f32; 3], along: F, factor: F) -> [F; 3] {
     let part = |offset: F, strength: f32| (along * offset - F::splat(strength)) * factor;
     [part(x, a), part(y, b), part(z, c)]
 }

@@ -92,7 +92,8 @@ impl Mutual {
         let single = |v: Vec3| v.to_array().map(|x| x as f32);
         let of_point = |k: usize| (Vec3::from_array(self.places[k].map(f64::from)), sum.moments(sorted[k]));
         let series = self.clusters.series(&of_point);
-        let record = |(place, strength): (&[f32; 3], &Vec3)| Record { place: *place, strength: single(*strength) };
+        let record =
+            |(place, strength): (&[f32; 3], &Vec3)| Record { place: *place, strength: single(*strength) };
         let records: Vec<Record> = self.places.iter().zip(&sorted).map(record).collect();
         let tasks = map_tasks(self.blocks.len().div_ceil(BLOCKS_PER_TASK), |task| {
             let first = task * BLOCKS_PER_TASK;

@@ -12,6 +12,13 @@ const LOOKS: [f64; 3] = [2.0, 4.0, 10.0];
 /// Errors of the 64-bit sums over what is near.
 const ROUNDING_OF_SUMS: f64 = 1e-12;
 
+/// Whether a value reaches a threshold.
+#[derive(Clone, Copy)]
+pub struct Reaches {
+    pub threshold: bool,
+    pub is_proven: bool,
+}
+
 impl<K: Kernel> Tree<K> {
     /// The winding number at `q`: clusters farther than β > 1 times their radius by their expansion of order 2, the rest
     /// exactly (Barill et al. 2018, algorithm 1); and a bound of its error. NaN where `q` is not finite.
@@ -37,11 +44,16 @@ impl<K: Kernel> Tree<K> {
         (K::total(near) + sum_of_lanes(far), remainder.bound(beta) + ROUNDING_OF_SUMS)
     }
 
-    /// Whether w ≥ `threshold` at `q`, proven; none where only [`Tree::direct`] can tell.
-    pub fn reaches(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> Option<bool> {
-        LOOKS.into_iter().find_map(|beta| {
+    /// Whether w ≥ `threshold` at `q`, proven or, where only [`Tree::direct`] can prove it, as the last look has it.
+    pub fn reaches(&self, q: Vec3, threshold: f64, scratch: &mut Scratch) -> Reaches {
+        let mut reaches = Reaches { threshold: false, is_proven: false };
+        for beta in LOOKS {
             let (w, bound) = self.bounded(q, beta, scratch);
-            ((w - threshold).abs() > bound).then_some(w > threshold)
-        })
+            reaches = Reaches { threshold: w >= threshold, is_proven: (w - threshold).abs() > bound };
+            if reaches.is_proven {
+                break;
+            }
+        }
+        reaches
     }
 }
