@@ -47,10 +47,10 @@ pub fn trace_contours(
     let mut tracer = Tracer { grid, inside, nodes: FxHashMap::default() };
     let mut next_edge: FxHashMap<Edge, Edge> = FxHashMap::default();
     let mut starts = Vec::new();
-    let mut visited: FxHashSet<Square> = FxHashSet::default();
+    let mut visited: FxHashSet<u64> = FxHashSet::default();
     let mut pending: Vec<Square> = seeds.into_iter().collect();
     while let Some(cell) = pending.pop() {
-        if !visited.insert(cell) {
+        if !visited.insert(key(cell)) {
             continue;
         }
         for (from, to) in tracer.segments(cell) {
@@ -60,6 +60,10 @@ pub fn trace_contours(
         }
     }
     tracer.rings(starts, next_edge)
+}
+
+fn key([i, j]: Square) -> u64 {
+    u64::from(i as u32) | u64::from(j as u32) << 32
 }
 
 const CORNERS: [Square; 4] = [[0, 0], [1, 0], [1, 1], [0, 1]];
@@ -85,13 +89,14 @@ fn across([i, j]: Square, side: usize) -> Square {
 struct Tracer<'a, F> {
     grid: &'a PlaneGrid,
     inside: F,
-    nodes: FxHashMap<Square, bool>,
+    /// By their keys: those of surfaces are numbers too, and share the map's code.
+    nodes: FxHashMap<u64, bool>,
 }
 
 impl<F: FnMut(Vec2, At) -> bool> Tracer<'_, F> {
     fn is_inside(&mut self, node: Square) -> bool {
         let (grid, inside) = (self.grid, &mut self.inside);
-        *self.nodes.entry(node).or_insert_with(|| inside(grid.node(node), At::Node))
+        *self.nodes.entry(key(node)).or_insert_with(|| inside(grid.node(node), At::Node))
     }
 
     /// The contour's segments in a cell, from side to side, the inside on their left.

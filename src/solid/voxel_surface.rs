@@ -10,12 +10,18 @@ const ACROSS: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
 pub(super) fn exposed_faces(voxels: &Voxels) -> SurfaceMesh {
     let lattice = voxels.lattice();
     let counts = lattice.counts;
-    let mut vertices: FxHashMap<[usize; 3], u32> = FxHashMap::default();
+    // By the number of a node; keys of one type for all maps of the crate make one instance of their code.
+    let [nx, ny, _] = counts.map(|n| n as u64 + 1);
+    let number = |node: [usize; 3]| {
+        let [i, j, k] = node.map(|n| n as u64);
+        i + nx * (j + ny * k)
+    };
+    let mut vertices: FxHashMap<u64, u32> = FxHashMap::default();
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
     let corner = lattice.origin - 0.5 * lattice.spacing;
     let mut vertex = |node: [usize; 3]| {
-        *vertices.entry(node).or_insert_with(|| {
+        *vertices.entry(number(node)).or_insert_with(|| {
             positions.push(corner + lattice.spacing * Vec3::from_array(node.map(|n| n as f64)));
             positions.len() as u32 - 1
         })
