@@ -59,6 +59,9 @@ fn bounded_gradients_are_no_worse_on_clean_samples_and_better_on_noisy_ones() {
     assert!(bounded.0 >= plain.0 && bounded.1 < plain.1, "clean: {plain:?}, bounded {bounded:?}");
     let (plain, bounded) = (at(&noisy, Bounded::Nothing), at(&noisy, Bounded::Gradients));
     assert!(bounded.0 > plain.0 + 0.03 && bounded.1 < plain.1 - 5.0, "noisy: {plain:?}, bounded {bounded:?}");
+    // With the field bounded too, narrow widths do with fewer points.
+    let everything = at(&clean, Bounded::Everything);
+    assert!(everything.0 >= 0.99 && everything.1 < at(&clean, Bounded::Nothing).1, "{everything:?}");
     // The widths chosen for the noise are better than both.
     let chosen = quality(&noisy, ConsistencyConfig::default());
     assert!(chosen.0 > 0.99 && chosen.1 < bounded.1 - 5.0, "chosen {chosen:?}");

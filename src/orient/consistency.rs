@@ -14,6 +14,9 @@ pub enum Bounded {
     /// The gradients, {SD, A, G_B}: the better the noisier a cloud is and the narrower the widths.
     #[default]
     Gradients,
+    /// Gradients and field, {LM, A_B, G_B}: as the field is no longer linear in the area vectors, they move by the method of
+    /// Levenberg and Marquardt.
+    Everything,
 }
 
 /// How consistency is reached.
@@ -65,8 +68,11 @@ pub fn consistent_area_vectors(
     for iteration in 0..config.iterations {
         monitor.report(iteration as f64 / config.iterations as f64, "normals")?;
         let width = widths.at(iteration, config.iterations);
-        descend(&mutual, &mut area_vectors, width);
-        let gradients = mutual.gradients(&area_vectors, width, config.bounded == Bounded::Gradients);
+        match config.bounded {
+            Bounded::Everything => descend_bounded(&mutual, &mut area_vectors, width),
+            _ => descend(&mutual, &mut area_vectors, width),
+        }
+        let gradients = mutual.gradients(&area_vectors, width, config.bounded != Bounded::Nothing);
         for (vector, gradient) in area_vectors.iter_mut().zip(gradients) {
             if let Some(inward) = gradient.try_normalize() {
                 *vector = -vector.length() * inward;
@@ -89,4 +95,39 @@ fn descend(mutual: &Mutual, area_vectors: &mut [Vec3], width: f64) {
     if across > 0.0 {
         area_vectors.iter_mut().zip(&slope).for_each(|(v, s)| *v += along / across * *s);
     }
+}
+
+/// Steps of conjugate gradients for one of Levenberg and Marquardt.
+const STEPS: usize = 2;
+/// Its damping, in Rayleigh quotients of the direction of steepest descent.
+const DAMPING: f64 = 0.1;
+
+/// A step of Levenberg and Marquardt for ‖w_B(μ) − ½‖²: (JᵀJ + λ) δ = Jᵀ (½ − w_B), solved roughly.
+fn descend_bounded(mutual: &Mutual, area_vectors: &mut [Vec3], width: f64) {
+    let potentials = mutual.bounded_potentials(area_vectors, width);
+    let rest: Vec<f64> = potentials.iter().map(|w| 2.0 * PI - w).collect();
+    let mut residual = mutual.bounded_fields(area_vectors, &rest, width);
+    let mut direction = residual.clone();
+    let mut step = vec![Vec3::ZERO; residual.len()];
+    let square = |vectors: &[Vec3]| vectors.iter().map(|v| v.length_squared()).sum::<f64>();
+    let (mut size, mut damping) = (square(&residual), None);
+    for _ in 0..STEPS {
+        let change = mutual.bounded_change(area_vectors, &direction, width);
+        let across: f64 = change.iter().map(|c| c * c).sum();
+        let along = square(&direction);
+        if !(across > 0.0 && along > 0.0) {
+            break;
+        }
+        let damping = *damping.get_or_insert(DAMPING * across / along);
+        let length = size / (across + damping * along);
+        step.iter_mut().zip(&direction).for_each(|(s, d)| *s += length * *d);
+        let image = mutual.bounded_fields(area_vectors, &change, width);
+        for ((r, i), d) in residual.iter_mut().zip(image).zip(&direction) {
+            *r -= length * (i + damping * *d);
+        }
+        let next = square(&residual);
+        direction.iter_mut().zip(&residual).for_each(|(d, r)| *d = *r + next / size * *d);
+        size = next;
+    }
+    area_vectors.iter_mut().zip(step).for_each(|(v, s)| *v += s);
 }

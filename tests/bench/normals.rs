@@ -51,7 +51,11 @@ fn methods() -> Vec<(String, OrientMethod)> {
         OrientMethod::Consistency(ConsistencyConfig { bounded, widths, ..Default::default() })
     };
     let mut methods = vec![("propagation".into(), OrientMethod::Propagation)];
-    for (name, bounded) in [("{SD, A, G}", Bounded::Nothing), ("{SD, A, G_B}", Bounded::Gradients)] {
+    for (name, bounded) in [
+        ("{SD, A, G}", Bounded::Nothing),
+        ("{SD, A, G_B}", Bounded::Gradients),
+        ("{LM, A_B, G_B}", Bounded::Everything),
+    ] {
         for (k, widths) in Widths::ALL.into_iter().enumerate().take(2) {
             methods.push((format!("{name} l{k}"), consistency(bounded, Some(widths))));
         }

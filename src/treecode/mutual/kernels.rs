@@ -17,13 +17,19 @@ pub enum Sum {
     BoundedGradient,
     /// c (q − p)/|q − p|³.
     Field,
+    /// 4π c(w / 4π) of the potentials w of single points, c that of the bounded winding number.
+    BoundedPotential,
+    /// How that changes with dipoles: the potential of these, each over (1 + |w|/π)^(3/2).
+    Change,
+    /// The transpose of that.
+    TransposedChange,
 }
 
 impl Sum {
     /// The moments of a point about its own place. A charge is the first coordinate of its strength.
     pub fn moments(self, strength: Vec3) -> Moments {
         match self {
-            Sum::Field => Moments { charge: strength.x, ..Moments::ZERO },
+            Sum::Field | Sum::TransposedChange => Moments { charge: strength.x, ..Moments::ZERO },
             _ => Moments { dipole: strength, ..Moments::ZERO },
         }
     }
@@ -34,6 +40,8 @@ impl Sum {
 pub struct Record {
     pub place: [f32; 3],
     pub strength: [f32; 3],
+    /// The dipole there that tells how far the point is bounded.
+    pub base: [f32; 3],
 }
 
 /// A block of points and all that acts on it.
@@ -43,6 +51,8 @@ pub struct Block<'a> {
     pub near: &'a [Range<u32>],
     pub series: &'a [Series],
     pub records: &'a [Record],
+    /// The dipoles at the points of the groups themselves, for [`Sum::TransposedChange`].
+    pub bases: &'a [Group],
     /// What is nearer does not act.
     pub width: f32,
 }
@@ -69,15 +79,26 @@ impl Work for Sums<'_> {
             Sum::Gradient => block.each::<R, Gradient>(sums),
             Sum::BoundedGradient => block.each::<R, BoundedGradient>(sums),
             Sum::Field => block.each::<R, Field>(sums),
+            Sum::BoundedPotential => block.each::<R, BoundedPotential>(sums),
+            Sum::Change => block.each::<R, Change>(sums),
+            Sum::TransposedChange => block.each::<R, TransposedChange>(sums),
         }
     }
 }
 
+const NO_BASES: Group = [Octet::ZERO; 3];
+
 /// How a point acts on others.
 trait Action {
     const IS_VECTOR: bool;
-    /// Given its place relative to them, the inverse square and cube of the distance, and its strength.
-    fn act<F: Floats<Number = f32>>(offset: [F; 3], square: F, cube: F, strength: [f32; 3]) -> [F; 3];
+    /// Given its place relative to them, the inverse square and cube of the distance, itself, and the dipoles at them.
+    fn act<F: Floats<Number = f32>>(
+        offset: [F; 3],
+        square: F,
+        cube: F,
+        source: &Record,
+        bases: [F; 3],
+    ) -> [F; 3];
 }
 
 struct Potential;
@@ -86,8 +107,8 @@ impl Action for Potential {
     const IS_VECTOR: bool = false;
 
     #[inline(always)]
-    fn act<F: Floats<Number = f32>>(offset: [F; 3], _: F, cube: F, strength: [f32; 3]) -> [F; 3] {
-        [along(offset, strength) * cube, F::splat(0.0), F::splat(0.0)]
+    fn act<F: Floats<Number = f32>>(offset: [F; 3], _: F, cube: F, source: &Record, _: [F; 3]) -> [F; 3] {
+        [along(offset, source.strength) * cube, F::splat(0.0), F::splat(0.0)]
     }
 }
 
@@ -97,7 +118,14 @@ impl Action for Gradient {
     const IS_VECTOR: bool = true;
 
     #[inline(always)]
-    fn act<F: Floats<Number = f32>>(offset: [F; 3], square: F, cube: F, strength: [f32; 3]) -> [F; 3] {
+    fn act<F: Floats<Number = f32>>(
+        offset: [F; 3],
+        square: F,
+        cube: F,
+        Record { strength, .. }: &Record,
+        _: [F; 3],
+    ) -> [F; 3] {
+        let strength = *strength;
         gradient(offset, strength, F::splat(3.0) * along(offset, strength) * square, cube)
     }
 }
@@ -108,10 +136,16 @@ impl Action for BoundedGradient {
     const IS_VECTOR: bool = true;
 
     #[inline(always)]
-    fn act<F: Floats<Number = f32>>(offset: [F; 3], square: F, cube: F, strength: [f32; 3]) -> [F; 3] {
-        let along = along(offset, strength);
-        let bound = F::splat(1.0) + (along * cube).abs() * F::splat((1.0 / PI) as f32);
-        gradient(offset, strength, F::splat(3.0) * along * square, cube / (bound * bound.sqrt()))
+    fn act<F: Floats<Number = f32>>(
+        offset: [F; 3],
+        square: F,
+        cube: F,
+        source: &Record,
+        _: [F; 3],
+    ) -> [F; 3] {
+        let along = along(offset, source.strength);
+        let slope = slope(along * cube);
+        gradient(offset, source.strength, F::splat(3.0) * along * square, cube * slope)
     }
 }
 
@@ -121,10 +155,63 @@ impl Action for Field {
     const IS_VECTOR: bool = true;
 
     #[inline(always)]
-    fn act<F: Floats<Number = f32>>(offset: [F; 3], _: F, cube: F, [charge, ..]: [f32; 3]) -> [F; 3] {
-        let factor = F::splat(-charge) * cube;
+    fn act<F: Floats<Number = f32>>(offset: [F; 3], _: F, cube: F, source: &Record, _: [F; 3]) -> [F; 3] {
+        let factor = F::splat(-source.strength[0]) * cube;
         [offset[0] * factor, offset[1] * factor, offset[2] * factor]
     }
+}
+
+struct BoundedPotential;
+
+impl Action for BoundedPotential {
+    const IS_VECTOR: bool = false;
+
+    #[inline(always)]
+    fn act<F: Floats<Number = f32>>(offset: [F; 3], _: F, cube: F, source: &Record, _: [F; 3]) -> [F; 3] {
+        let own = along(offset, source.strength) * cube;
+        let root = (F::splat(1.0) + own.abs() * F::splat((1.0 / PI) as f32)).sqrt();
+        // 2π (1 − 1/√(1 + |w|/π)), without a difference of numbers that are nearly equal.
+        let bounded = own.abs() * F::splat(2.0) / (root * (root + F::splat(1.0)));
+        [own.with_signs_on(bounded), F::splat(0.0), F::splat(0.0)]
+    }
+}
+
+struct Change;
+
+impl Action for Change {
+    const IS_VECTOR: bool = false;
+
+    #[inline(always)]
+    fn act<F: Floats<Number = f32>>(offset: [F; 3], _: F, cube: F, source: &Record, _: [F; 3]) -> [F; 3] {
+        let slope = slope(along(offset, source.base) * cube);
+        [along(offset, source.strength) * cube * slope, F::splat(0.0), F::splat(0.0)]
+    }
+}
+
+struct TransposedChange;
+
+impl Action for TransposedChange {
+    const IS_VECTOR: bool = true;
+
+    #[inline(always)]
+    fn act<F: Floats<Number = f32>>(
+        [x, y, z]: [F; 3],
+        _: F,
+        cube: F,
+        source: &Record,
+        [a, b, c]: [F; 3],
+    ) -> [F; 3] {
+        let factor = F::splat(-source.strength[0]) * cube * slope((x * a + y * b + z * c) * cube);
+        [x * factor, y * factor, z * factor]
+    }
+}
+
+/// What the bounded potential of a point changes by where its potential w changes by 1: (1 + |w|/π)^(−3/2), *Leaps and Bounds*,
+/// eq. 45.
+#[inline(always)]
+fn slope<F: Floats<Number = f32>>(own: F) -> F {
+    let sum = F::splat(1.0) + own.abs() * F::splat((1.0 / PI) as f32);
+    F::splat(1.0) / (sum * sum.sqrt())
 }
 
 #[inline(always)]
@@ -142,13 +229,19 @@ fn gradient<F: Floats<Number = f32>>([x, y, z]: [F; 3], [a, b, c]: [f32; 3], alo
 impl Block<'_> {
     #[inline(always)]
     fn each<R: Registers, A: Action>(&self, sums: &mut Vec<[f32; 3]>) {
-        for group in self.groups {
+        for (k, group) in self.groups.iter().enumerate() {
+            let bases = self.bases.get(k).unwrap_or(&NO_BASES);
             let mut octets = [Octet::ZERO; 3];
             for part in parts::<R::Singles>() {
                 let x = group[0].get::<R::Singles>(part);
                 let y = group[1].get::<R::Singles>(part);
                 let z = group[2].get::<R::Singles>(part);
-                let sum = self.sum::<R::Singles, A>([x, y, z]);
+                let bases = [
+                    bases[0].get::<R::Singles>(part),
+                    bases[1].get::<R::Singles>(part),
+                    bases[2].get::<R::Singles>(part),
+                ];
+                let sum = self.sum::<R::Singles, A>([x, y, z], bases);
                 octets[0].put(part, sum[0]);
                 octets[1].put(part, sum[1]);
                 octets[2].put(part, sum[2]);
@@ -160,7 +253,7 @@ impl Block<'_> {
 
     /// The sums at a register of points.
     #[inline(always)]
-    fn sum<F: Floats<Number = f32>, A: Action>(&self, [qx, qy, qz]: [F; 3]) -> [F; 3] {
+    fn sum<F: Floats<Number = f32>, A: Action>(&self, [qx, qy, qz]: [F; 3], bases: [F; 3]) -> [F; 3] {
         let least = F::splat(self.width * self.width);
         let (one, half) = (F::splat(1.0), F::splat(0.5));
         let mut sums = [F::splat(0.0); 3];
@@ -202,7 +295,7 @@ impl Block<'_> {
                 let counts = half + (square - least).with_signs_on(half);
                 let inverse_square = one / square.max(least);
                 let inverse_cube = counts * inverse_square * inverse_square.sqrt();
-                let [x, y, z] = A::act(offset, inverse_square, inverse_cube, record.strength);
+                let [x, y, z] = A::act(offset, inverse_square, inverse_cube, record, bases);
                 sums = [sums[0] + x, sums[1] + y, sums[2] + z];
             }
         }

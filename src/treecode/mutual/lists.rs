@@ -31,11 +31,7 @@ impl Blocks {
         for leaf in leaves {
             let range = clusters.leaf(leaf).expect("it is a leaf");
             let own = &points[range.start as usize..range.end as usize];
-            for some in own.chunks(WIDTH) {
-                let axis =
-                    |axis: usize| Octet(std::array::from_fn(|k| some[k.min(some.len() - 1)][axis] as f32));
-                blocks.groups.push([axis(0), axis(1), axis(2)]);
-            }
+            add_groups(own, &mut blocks.groups);
             let bounds = Aabb::around(own.iter().copied());
             let [x, y, z] = bounds.center().to_array().map(|c| c as f32);
             blocks.balls.push([x, y, z, (0.5 * bounds.diagonal()) as f32]);
@@ -55,8 +51,24 @@ impl Blocks {
         self.points[block].clone()
     }
 
-    pub fn groups(&self, block: usize) -> &[Group] {
-        &self.groups[self.starts[block] as usize..self.starts[block + 1] as usize]
+    /// The places of all points.
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    /// Vectors of the sorted points in such groups; none if there are none.
+    pub fn grouped(&self, vectors: &[Vec3]) -> Vec<Group> {
+        let mut groups = Vec::new();
+        if !vectors.is_empty() {
+            let own = |range: &Range<u32>| &vectors[range.start as usize..range.end as usize];
+            self.points.iter().for_each(|range| add_groups(own(range), &mut groups));
+        }
+        groups
+    }
+
+    /// The groups of a block among those of all; none if there are none.
+    pub fn of_block<'a>(&self, block: usize, groups: &'a [Group]) -> &'a [Group] {
+        groups.get(self.starts[block] as usize..self.starts[block + 1] as usize).unwrap_or(&[])
     }
 
     pub fn bytes(&self) -> usize {
@@ -65,6 +77,13 @@ impl Blocks {
             + size_of_val(&self.groups[..])
             + size_of_val(&self.starts[..])
             + size_of_val(&self.balls[..])
+    }
+}
+
+fn add_groups(vectors: &[Vec3], groups: &mut Vec<Group>) {
+    for some in vectors.chunks(WIDTH) {
+        let axis = |axis: usize| Octet(std::array::from_fn(|k| some[k.min(some.len() - 1)][axis] as f32));
+        groups.push([axis(0), axis(1), axis(2)]);
     }
 }
 

@@ -70,41 +70,71 @@ impl Mutual {
     /// Potentials Σⱼ μⱼ·(pⱼ − pᵢ) / |pⱼ − pᵢ|³ over the points that are `width` or farther away: 4π times the winding numbers
     /// of dipoles μ.
     pub fn potentials(&self, dipoles: &[Vec3], width: f64) -> Vec<f64> {
-        let sums = self.sum(Sum::Potential, width, &|i| dipoles[i]);
-        sums.into_iter().map(|[sum, ..]| f64::from(sum)).collect()
+        firsts(self.sum(Sum::Potential, width, &|i| dipoles[i], &[]))
+    }
+
+    /// The same, each term w of one point bounded to 2π sign(w) (1 − 1/√(1 + |w|/π)): 4π times the bounded winding number
+    /// (*Leaps and Bounds*, eq. 41), clusters that act as a whole excepted, which are far.
+    pub fn bounded_potentials(&self, dipoles: &[Vec3], width: f64) -> Vec<f64> {
+        firsts(self.sum(Sum::BoundedPotential, width, &|i| dipoles[i], &[]))
+    }
+
+    /// The derivative of [`Mutual::bounded_potentials`] at `dipoles` towards `change` (eq. 51).
+    pub fn bounded_change(&self, dipoles: &[Vec3], change: &[Vec3], width: f64) -> Vec<f64> {
+        firsts(self.sum(Sum::Change, width, &|i| change[i], dipoles))
+    }
+
+    /// The transpose of [`Mutual::bounded_change`], as [`Mutual::fields`] is that of the potentials.
+    pub fn bounded_fields(&self, dipoles: &[Vec3], charges: &[f64], width: f64) -> Vec<Vec3> {
+        vectors(self.sum(Sum::TransposedChange, width, &|i| Vec3::new(charges[i], 0.0, 0.0), dipoles))
     }
 
     /// The gradients of these; where `is_bounded`, each term of one point over (1 + |w| / π)^(3/2), w its own part of the
     /// potential: those of the bounded winding number (*Leaps and Bounds*, eq. 49, times 4π).
     pub fn gradients(&self, dipoles: &[Vec3], width: f64, is_bounded: bool) -> Vec<Vec3> {
         let sum = if is_bounded { Sum::BoundedGradient } else { Sum::Gradient };
-        vectors(self.sum(sum, width, &|i| dipoles[i]))
+        vectors(self.sum(sum, width, &|i| dipoles[i], &[]))
     }
 
     /// Σᵢ cᵢ (pⱼ − pᵢ) / |pⱼ − pᵢ|³ over the points that are `width` or farther away: the transpose of
     /// [`Mutual::potentials`].
     pub fn fields(&self, charges: &[f64], width: f64) -> Vec<Vec3> {
-        vectors(self.sum(Sum::Field, width, &|i| Vec3::new(charges[i], 0.0, 0.0)))
+        vectors(self.sum(Sum::Field, width, &|i| Vec3::new(charges[i], 0.0, 0.0), &[]))
     }
 
-    fn sum(&self, sum: Sum, width: f64, strength: &(dyn Fn(usize) -> Vec3 + Sync)) -> Vec<[f32; 3]> {
+    /// `bases` are the dipoles that tell how far points are bounded, if it is a change that is asked for.
+    fn sum(
+        &self,
+        sum: Sum,
+        width: f64,
+        strength: &(dyn Fn(usize) -> Vec3 + Sync),
+        bases: &[Vec3],
+    ) -> Vec<[f32; 3]> {
         let sorted: Vec<Vec3> = self.order.iter().map(|i| strength(*i as usize)).collect();
+        let base = |k: usize| bases.get(self.order[k] as usize).copied().unwrap_or(Vec3::ZERO);
+        let sorted_bases: Vec<Vec3> =
+            if bases.is_empty() { vec![] } else { (0..self.len()).map(base).collect() };
+        let bases = self.blocks.grouped(&sorted_bases);
         let single = |v: Vec3| v.to_array().map(|x| x as f32);
         let of_point = |k: usize| (Vec3::from_array(self.places[k].map(f64::from)), sum.moments(sorted[k]));
         let series = self.clusters.series(&of_point);
-        let record =
-            |(place, strength): (&[f32; 3], &Vec3)| Record { place: *place, strength: single(*strength) };
-        let records: Vec<Record> = self.places.iter().zip(&sorted).map(record).collect();
+        let record = |k: usize| Record {
+            place: self.places[k],
+            strength: single(sorted[k]),
+            base: sorted_bases.get(k).map_or([0.0; 3], |base| single(*base)),
+        };
+        let records: Vec<Record> = (0..self.len()).map(record).collect();
         let tasks = map_tasks(self.blocks.len().div_ceil(BLOCKS_PER_TASK), |task| {
             let first = task * BLOCKS_PER_TASK;
             let mut sums = Vec::new();
             for k in first..self.blocks.len().min(first + BLOCKS_PER_TASK) {
                 let block = Block {
-                    groups: self.blocks.groups(k),
+                    groups: self.blocks.of_block(k, self.blocks.groups()),
                     far: self.lists.far(k),
                     near: self.lists.near(k),
                     series: &series,
                     records: &records,
+                    bases: self.blocks.of_block(k, &bases),
                     width: width as f32,
                 };
                 let end = sums.len() + self.blocks.points(k).len();
@@ -121,6 +151,10 @@ impl Mutual {
     }
 }
 
+fn firsts(sums: Vec<[f32; 3]>) -> Vec<f64> {
+    sums.into_iter().map(|[sum, ..]| f64::from(sum)).collect()
+}
+
 fn vectors(sums: Vec<[f32; 3]>) -> Vec<Vec3> {
     sums.into_iter().map(|sum| Vec3::from_array(sum.map(f64::from))).collect()
 }
@@ -131,6 +165,8 @@ type Group = [Octet; 3];
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::swizzles::Vec3Swizzles;
+    use std::f64::consts::PI;
 
     /// Points on a bumpy sphere, with strengths of any kind.
     fn sample(count: usize) -> (Vec<Vec3>, Vec<Vec3>, Vec<f64>) {
@@ -214,6 +250,71 @@ mod tests {
                 let size = rms(expected.iter().map(|v| v.length())).max(1e-9);
                 println!("{count}, {width}: {name} {:.1e}", error / size);
                 assert!(error < most * size, "{name} of {count}: {error} of {size}");
+            }
+        }
+    }
+
+    #[test]
+    fn bounded_potentials_change_as_their_derivative_says() {
+        let (points, dipoles, charges) = sample(1500);
+        // Strong ones, so that the bound matters.
+        let dipoles: Vec<Vec3> = dipoles.iter().map(|d| 30.0 * *d).collect();
+        let mutual = Mutual::new(&points, 2.0);
+        let width = 0.01;
+        let bounded = mutual.bounded_potentials(&dipoles, width);
+        let plain = mutual.potentials(&dipoles, width);
+        let expected = |i: usize| -> f64 {
+            let of = |(p, d): (&Vec3, &Vec3)| {
+                let offset = *p - points[i];
+                let w = offset.dot(*d) / offset.length().powi(3);
+                let bound = 2.0 * PI * (1.0 - 1.0 / (1.0 + w.abs() / PI).sqrt());
+                if offset.length() < width { 0.0 } else { bound.copysign(w) }
+            };
+            points.iter().zip(&dipoles).map(of).sum()
+        };
+        let error = rms((0..1500).step_by(10).map(|i| bounded[i] - expected(i)));
+        let size = rms(bounded.iter().copied());
+        assert!(error < 0.03 * size, "{error} of {size}");
+        assert!(
+            rms(bounded.iter().zip(&plain).map(|(a, b)| a - b)) > 0.1 * size,
+            "the bound does not matter here"
+        );
+        // A small step towards each side.
+        let step: Vec<Vec3> = dipoles.iter().enumerate().map(|(i, d)| charges[i] * d.yzx()).collect();
+        let moved = |t: f64| -> Vec<f64> {
+            let dipoles: Vec<Vec3> = dipoles.iter().zip(&step).map(|(d, s)| *d + t * *s).collect();
+            mutual.bounded_potentials(&dipoles, width)
+        };
+        let change = mutual.bounded_change(&dipoles, &step, width);
+        let (up, down) = (moved(3e-3), moved(-3e-3));
+        let error = rms((0..1500).map(|i| change[i] - (up[i] - down[i]) / 6e-3));
+        let size = rms(change.iter().copied());
+        assert!(error < 3e-3 * size, "{error} of {size}");
+    }
+
+    #[test]
+    fn transposes_are_transposes() {
+        let (points, dipoles, charges) = sample(1500);
+        let step: Vec<Vec3> = dipoles.iter().map(|d| d.zxy()).collect();
+        // All singly: far clusters are approximated otherwise than far points.
+        let mutual = Mutual::new(&points, 1e9);
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let products = |a: &[Vec3], b: &[Vec3]| a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum::<f64>();
+        for width in [0.01, 0.2] {
+            let pairs = [
+                (
+                    product(&mutual.potentials(&step, width), &charges),
+                    products(&mutual.fields(&charges, width), &step),
+                ),
+                (
+                    product(&mutual.bounded_change(&dipoles, &step, width), &charges),
+                    products(&mutual.bounded_fields(&dipoles, &charges, width), &step),
+                ),
+            ];
+            let size =
+                rms(charges.iter().copied()) * rms(mutual.potentials(&step, width).into_iter()) * 1500.0;
+            for (left, right) in pairs {
+                assert!((left - right).abs() < 5e-5 * size, "{left} and {right}, of {size}");
             }
         }
     }
