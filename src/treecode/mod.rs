@@ -6,6 +6,7 @@ mod dual;
 mod expansion;
 mod frame;
 mod kernel;
+mod links;
 mod moments;
 mod mutual;
 mod tree;

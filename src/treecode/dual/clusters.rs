@@ -3,10 +3,11 @@ use super::factors::factors;
 use super::local::sum_of_lanes;
 use super::moments::{COEFFICIENTS, Member, Moments};
 use super::{SourceKind, Sources};
-use crate::bvh::{Bvh, Child, morton_code};
+use crate::bvh::{Bvh, morton_code};
 use crate::data::{map_items, map_parts, set_each};
 use crate::math::{Aabb, Vec3, area_vector};
 use crate::treecode::frame::Frame;
+use crate::treecode::links::{Link, link, spans};
 use std::f64::consts::PI;
 use std::ops::Range;
 use wide::f32x4;
@@ -14,26 +15,6 @@ use wide::f32x4;
 /// Where a cluster is, in the tree's unit frame: x, y, z of the centre, and the distance of the farthest corner of a
 /// source from it, rounded up.
 pub type Ball = [f32; 4];
-
-/// What a cluster holds: items of the tree's order, or clusters.
-#[derive(Clone, Copy)]
-pub struct Link {
-    first: u32,
-    /// The highest bit is set for items.
-    count: u32,
-}
-
-const LEAF: u32 = 1 << 31;
-
-impl Link {
-    pub fn is_leaf(&self) -> bool {
-        self.count & LEAF != 0
-    }
-
-    pub fn range(&self) -> Range<usize> {
-        self.first as usize..(self.first + (self.count & !LEAF)) as usize
-    }
-}
 
 /// The far field of a cluster.
 #[derive(Clone, Copy)]
@@ -116,40 +97,6 @@ impl Clusters {
             + size_of_val(&self.series[..])
             + size_of_val(&self.items[..])
     }
-}
-
-/// Links of all clusters, the children of one node after those of another, and the ranges of the levels.
-fn link(bvh: &Bvh) -> (Vec<Link>, Vec<Range<usize>>) {
-    let mut first_child = Vec::with_capacity(bvh.nodes().len());
-    let mut count = 0;
-    for node in bvh.nodes() {
-        first_child.push(count);
-        count += node.children.iter().filter(|c| **c != Child::Empty).count() as u32;
-    }
-    first_child.push(count);
-    let links = (bvh.nodes().iter().flat_map(|node| node.children))
-        .filter_map(|child| match child {
-            Child::Empty => None,
-            Child::Leaf { first, count } => Some(Link { first, count: count | LEAF }),
-            Child::Inner(node) => {
-                let (first, end) = (first_child[node as usize], first_child[node as usize + 1]);
-                Some(Link { first, count: end - first })
-            }
-        })
-        .collect();
-    let place = |node: usize| first_child[node] as usize;
-    let levels = bvh.levels().iter().map(|l| place(l.start)..place(l.end)).collect();
-    (links, levels)
-}
-
-/// The items below each cluster. Children come after their parents.
-fn spans(links: &[Link]) -> Vec<Range<usize>> {
-    let mut spans = vec![0..0; links.len()];
-    for (at, link) in links.iter().enumerate().rev() {
-        let range = link.range();
-        spans[at] = if link.is_leaf() { range } else { spans[range.start].start..spans[range.end - 1].end };
-    }
-    spans
 }
 
 impl Part {

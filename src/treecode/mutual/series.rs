@@ -1,7 +1,8 @@
 //! Clusters of charges and dipoles, and their potentials φ = Q/R + D·R/R³ + (3/2) R·S·R/R⁵ about their middles.
-use crate::bvh::{Bvh, Child};
+use crate::bvh::Bvh;
 use crate::data::set_each;
 use crate::math::{Aabb, Vec3};
+use crate::treecode::links::{Link, link, spans};
 use std::ops::Range;
 
 /// Clusters whose moments are one task.
@@ -12,53 +13,18 @@ pub struct Clusters {
     /// Middle and radius.
     balls: Vec<[f32; 4]>,
     centers: Vec<Vec3>,
-    /// Points for leaves, clusters otherwise.
-    below: Vec<Below>,
+    links: Vec<Link>,
     /// The ranges of the levels, the uppermost first.
     levels: Vec<Range<usize>>,
-}
-
-#[derive(Clone)]
-enum Below {
-    Points(Range<u32>),
-    Clusters(Range<u32>),
 }
 
 impl Clusters {
     /// The clusters of a hierarchy of points that are in its order.
     pub fn over(bvh: &Bvh, points: &[Vec3]) -> Clusters {
-        let mut first_child = Vec::with_capacity(bvh.nodes().len() + 1);
-        let mut count = 0;
-        for node in bvh.nodes() {
-            first_child.push(count);
-            count += node.children.iter().filter(|c| **c != Child::Empty).count() as u32;
-        }
-        first_child.push(count);
-        let children = bvh.nodes().iter().flat_map(|node| node.children);
-        let below: Vec<Below> = children
-            .filter_map(|child| match child {
-                Child::Empty => None,
-                Child::Leaf { first, count } => Some(Below::Points(first..first + count)),
-                Child::Inner(node) => {
-                    Some(Below::Clusters(first_child[node as usize]..first_child[node as usize + 1]))
-                }
-            })
-            .collect();
-        let place = |node: usize| first_child[node] as usize;
-        let levels: Vec<Range<usize>> = bvh.levels().iter().map(|l| place(l.start)..place(l.end)).collect();
-        // Children come after their parents.
-        let mut spans = vec![0..0; below.len()];
-        for (k, below) in below.iter().enumerate().rev() {
-            spans[k] = match below {
-                Below::Points(range) => range.start as usize..range.end as usize,
-                Below::Clusters(range) => {
-                    spans[range.start as usize].start..spans[range.end as usize - 1].end
-                }
-            };
-        }
-        let mut centers = Vec::with_capacity(below.len());
-        let mut balls = Vec::with_capacity(below.len());
-        for span in spans {
+        let (links, levels) = link(bvh);
+        let mut centers = Vec::with_capacity(links.len());
+        let mut balls = Vec::with_capacity(links.len());
+        for span in spans(&links) {
             let own = &points[span];
             let center = Aabb::around(own.iter().copied()).center();
             let radius = own.iter().map(|p| p.distance_squared(center)).fold(0.0, f64::max).sqrt();
@@ -66,11 +32,11 @@ impl Clusters {
             centers.push(Vec3::new(f64::from(x), f64::from(y), f64::from(z)));
             balls.push([x, y, z, radius as f32]);
         }
-        Clusters { balls, centers, below, levels }
+        Clusters { balls, centers, links, levels }
     }
 
     pub fn len(&self) -> usize {
-        self.below.len()
+        self.links.len()
     }
 
     pub fn roots(&self) -> Range<u32> {
@@ -83,18 +49,13 @@ impl Clusters {
 
     /// The points of a leaf.
     pub fn leaf(&self, cluster: u32) -> Option<Range<u32>> {
-        match &self.below[cluster as usize] {
-            Below::Points(range) => Some(range.clone()),
-            Below::Clusters(_) => None,
-        }
+        let link = &self.links[cluster as usize];
+        link.is_leaf().then(|| narrowed(link.range()))
     }
 
     /// The clusters right below one that is no leaf.
     pub fn children(&self, cluster: u32) -> Range<u32> {
-        match &self.below[cluster as usize] {
-            Below::Points(_) => 0..0,
-            Below::Clusters(range) => range.clone(),
-        }
+        narrowed(self.links[cluster as usize].range())
     }
 
     /// The moments of all clusters, given those of each point about its own place, which is given too.
@@ -104,18 +65,13 @@ impl Clusters {
             let (upper, lower) = moments.split_at_mut(level.end);
             set_each(&mut upper[level.clone()], CLUSTERS_PER_TASK, |k, sum| {
                 let center = self.centers[level.start + k];
-                match &self.below[level.start + k] {
-                    Below::Points(range) => {
-                        for i in range.clone() {
-                            let (place, own) = of_point(i as usize);
-                            sum.add(&own, place - center);
-                        }
-                    }
-                    Below::Clusters(range) => {
-                        for c in range.clone() {
-                            let c = c as usize;
-                            sum.add(&lower[c - level.end], self.centers[c] - center);
-                        }
+                let link = &self.links[level.start + k];
+                for i in link.range() {
+                    if link.is_leaf() {
+                        let (place, own) = of_point(i);
+                        sum.add(&own, place - center);
+                    } else {
+                        sum.add(&lower[i - level.end], self.centers[i] - center);
                     }
                 }
             });
@@ -124,8 +80,12 @@ impl Clusters {
     }
 
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.balls[..]) + size_of_val(&self.centers[..]) + size_of_val(&self.below[..])
+        size_of_val(&self.balls[..]) + size_of_val(&self.centers[..]) + size_of_val(&self.links[..])
     }
+}
+
+fn narrowed(range: Range<usize>) -> Range<u32> {
+    range.start as u32..range.end as u32
 }
 
 /// Moments about a place.
