@@ -23,7 +23,7 @@ fn scraps(count: usize) -> TriangleSoup {
     TriangleSoup::new(corners, triangles).unwrap()
 }
 
-/// A dipole at each barycentre, those of the torus turned at random too.
+/// A dipole at each barycentre; where they are `turned`, half of them look the other way.
 fn dipoles(soup: &TriangleSoup, turned: bool) -> OrientedCloud {
     let mut random = random(3);
     let areas: Vec<Vec3> =

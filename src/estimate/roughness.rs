@@ -1,6 +1,7 @@
 //! How densely and how noisily a surface was sampled.
 use super::EstimateError;
 use super::curved::fit_height;
+use super::sites::Sites;
 use crate::bvh::{Bvh, Nearest};
 use crate::data::{Monitor, fill_in_blocks};
 use crate::math::{Aabb, Vec3, fit_plane};
@@ -27,7 +28,7 @@ pub struct Roughness {
 
 /// Spacing and noise of a cloud, from up to 2,000 of its points and the 15 nearest neighbours of each: a quadratic surface
 /// takes their curvature out (Cazals & Pouget 2005), what it leaves is noise. Noise much wider than the spacing is
-/// underestimated; points that are there many times count as one to their neighbours.
+/// underestimated; points in one place count as one.
 ///
 /// # Errors
 /// If and only if the cloud is empty or `monitor` cancels.
@@ -35,6 +36,8 @@ pub fn roughness(points: &[Vec3], monitor: &dyn Monitor) -> Result<Roughness, Es
     if points.is_empty() {
         return Err(EstimateError::Empty);
     }
+    let sites = Sites::find(points, &[]);
+    let points = &sites.points[..];
     let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
     let bvh = Bvh::build(&boxes, LEAF_SIZE);
     let ordered: Vec<Vec3> = bvh.items().iter().map(|&i| points[i as usize]).collect();
@@ -102,6 +105,13 @@ mod tests {
             let error = (found.noise - expected).abs();
             assert!(error < 0.1 * expected + 2e-3 * spacing, "{count}: {} for {expected}", found.noise);
         }
+    }
+
+    #[test]
+    fn copies_do_not_count() {
+        let once = sphere(1500, 0.1);
+        let often: Vec<Vec3> = (0..20).flat_map(|_| once.clone()).collect();
+        assert_eq!(roughness(&often, &Silent), roughness(&once, &Silent));
     }
 
     #[test]

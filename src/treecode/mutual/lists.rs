@@ -11,8 +11,6 @@ const BLOCKS_PER_TASK: usize = 64;
 
 /// The points that are summed for together: those of a leaf, eight to a group; the last one fills the places left over.
 pub struct Blocks {
-    /// The leaf of each.
-    leaves: Vec<u32>,
     points: Vec<Range<u32>>,
     groups: Vec<Group>,
     /// Where the groups of each begin, and after the last.
@@ -23,8 +21,7 @@ pub struct Blocks {
 
 impl Blocks {
     pub fn of(clusters: &Clusters, points: &[Vec3]) -> Blocks {
-        let mut blocks =
-            Blocks { leaves: vec![], points: vec![], groups: vec![], starts: vec![0], balls: vec![] };
+        let mut blocks = Blocks { points: vec![], groups: vec![], starts: vec![0], balls: vec![] };
         let mut leaves: Vec<u32> =
             (0..clusters.len() as u32).filter(|c| clusters.leaf(*c).is_some()).collect();
         leaves.sort_by_key(|c| clusters.leaf(*c).map(|range| range.start));
@@ -35,7 +32,6 @@ impl Blocks {
             let bounds = Aabb::around(own.iter().copied());
             let [x, y, z] = bounds.center().to_array().map(|c| c as f32);
             blocks.balls.push([x, y, z, (0.5 * bounds.diagonal()) as f32]);
-            blocks.leaves.push(leaf);
             blocks.points.push(range);
             blocks.starts.push(blocks.groups.len() as u32);
         }
@@ -72,8 +68,7 @@ impl Blocks {
     }
 
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.leaves[..])
-            + size_of_val(&self.points[..])
+        size_of_val(&self.points[..])
             + size_of_val(&self.groups[..])
             + size_of_val(&self.starts[..])
             + size_of_val(&self.balls[..])
