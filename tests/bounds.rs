@@ -3,7 +3,7 @@ mod common;
 
 use common::*;
 use fast_winding::data::{OrientedCloud, Shape, Silent, TriangleSoup};
-use fast_winding::math::Vec3;
+use fast_winding::math::{Vec3, side_of_plane};
 use fast_winding::treecode::{Kernel, Scratch, Tree, TreeConfig};
 use fast_winding::winding::{FieldConfig, Triangles, WindingField, winding};
 use rayon::prelude::*;
@@ -133,4 +133,41 @@ fn points_next_to_the_level_set_are_decided_right() {
         *if w >= 0.5 { &mut inside } else { &mut outside } = middle;
     }
     assert!(field.refined() > 5, "{} sums next to the level set", field.refined());
+}
+
+/// Next to a triangle, off its plane by rounding only: as a little farther off on the same side.
+#[test]
+fn sides_of_loose_triangles_are_exact() {
+    let whole = torus(1.0, 0.4, 50, 24);
+    let mut random = random(29);
+    let mut apart = || 1e-3 * (2.0 * Vec3::new(random(), random(), random()) - Vec3::ONE);
+    let corners: Vec<Vec3> = (0..whole.len())
+        .flat_map(|t| {
+            let shift = apart();
+            whole.corners(t).map(|c| c + shift)
+        })
+        .collect();
+    let triangles = (0..whole.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let soup = TriangleSoup::new(corners, triangles).unwrap();
+    let field = WindingField::new(soup.clone(), FieldConfig::default());
+    assert!(field.report().loose_components > 0);
+    let (mut next, mut off) = (Vec::new(), Vec::new());
+    for t in 0..soup.len() {
+        let corners = soup.corners(t);
+        let middle = fast_winding::math::barycentre(corners);
+        let out = fast_winding::math::area_vector(corners).normalize();
+        for q in [middle, middle.with_x(middle.x.next_up()), middle.with_z(middle.z.next_down())] {
+            let side = f64::from(side_of_plane(q, corners));
+            if side != 0.0 {
+                next.push(q);
+                off.push(q + 1e-9 * side * out);
+            }
+        }
+    }
+    assert!(next.len() > 3000, "{}", next.len());
+    let at_once = |points: &[Vec3]| field.contains(points, &Silent).unwrap();
+    let expected = at_once(&off);
+    assert_eq!(at_once(&next), expected);
+    let by_few: Vec<bool> = next.chunks(500).flat_map(at_once).collect();
+    assert_eq!(by_few, expected);
 }
