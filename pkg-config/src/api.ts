@@ -225,8 +225,12 @@ export interface Cloud extends Shape {
   readonly kind: 'cloud';
   readonly hasNormals: boolean;
   readonly hasAreas: boolean;
-  /** Estimates normals and orients them consistently. */
-  orient(options?: { method?: 'propagation' } & CallOptions): Promise<void>;
+  /**
+   * Gives points outward normals, and areas. `consistency` (the default) seeks the normals whose winding number is ½ at every
+   * point (Lin et al. 2024); `propagation` fits planes to neighbours and turns one after the other, faster, but thin or sparse
+   * parts may come out inverted. `noiseLevel`, 0 to 5, is estimated unless given: higher smooths more.
+   */
+  orient(options?: { method?: 'consistency' | 'propagation'; noiseLevel?: number } & CallOptions): Promise<void>;
   /** The points as they are; areas in square millimetres. */
   geometry(): Promise<{
     positions: Float32Array;

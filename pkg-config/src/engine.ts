@@ -1,3 +1,4 @@
+import { placeClouds } from './clouds.js';
 import type { Handle, Job } from './single/fast_winding.js';
 import type { Request } from './protocol.js';
 
@@ -7,6 +8,9 @@ export type Progress = ((fraction: number, stage: string) => void) | undefined;
 
 /** Methods of the engine that make a shape. */
 const MAKERS = { parse: 'parse', soup: 'soup', cloud: 'cloud' } as const;
+
+/** Methods that take a cloud as it came. */
+const WITHOUT_FIELD = ['free', 'export', 'geometry'];
 
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
@@ -21,9 +25,17 @@ export class Engine {
     return this.glue.version();
   }
 
+  /** Whether a call estimates normals or areas, which takes the part of the WebAssembly for clouds. */
+  needsClouds({ method, handle, args }: Request): boolean {
+    if (method === 'parse' || method === 'cloud') return (args.at(-1) as { orient?: string } | undefined)?.orient !== undefined;
+    return !WITHOUT_FIELD.includes(method) && (this.handles.get(handle)?.isRaw() ?? false);
+  }
+
   /** Runs one call. Throws what the WebAssembly throws. */
-  run({ method, handle, args }: Request, progress: Progress): unknown {
+  run(request: Request, progress: Progress): unknown {
+    const { method, handle, args } = request;
     this.job.listen(progress);
+    if (this.needsClouds(request)) placeClouds();
     if (method in MAKERS) return this.make(MAKERS[method as keyof typeof MAKERS], handle, args);
     if (method === 'exportLayer') return this.glue.exportLayer(...(args as [unknown, string]));
     if (method === 'free') return this.free(handle);

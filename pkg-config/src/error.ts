@@ -9,6 +9,7 @@ export type ErrorCode =
   | 'InvalidArgument'
   | 'OutOfMemory'
   | 'Unsupported'
+  | 'LoadFailed'
   | 'Aborted'
   | 'Crashed'
   | 'Freed';

@@ -7,6 +7,8 @@ export interface PoolMessage {
   memory: WebAssembly.Memory;
   receiver: number;
   channel: string;
+  /** The part of the WebAssembly for clouds, once it is there. */
+  clouds: SharedArrayBuffer;
 }
 
 /** Where this module lies when nothing has bundled it. */
@@ -40,13 +42,14 @@ function joined(worker: Worker, message: PoolMessage): Promise<void> {
 
 /**
  * Starts a worker for each thread, then builds the pool. `channel` names the BroadcastChannel on which a worker says that
- * it trapped: the engine, blocked, could not hear it.
+ * it trapped: the engine, blocked, could not hear it. In `clouds` a worker finds what it did not load at first.
  */
-export function poolStarter(channel: string): PoolStarter {
+export function poolStarter(channel: string, clouds: SharedArrayBuffer): PoolStarter {
   /** Kept so that no browser collects workers which only share memory. */
   const workers: Worker[] = [];
   return async (module, memory, builder) => {
-    const message: PoolMessage = { type: 'fast-winding-pool-start', module, memory, receiver: builder.receiver(), channel };
+    const receiver = builder.receiver();
+    const message: PoolMessage = { type: 'fast-winding-pool-start', module, memory, receiver, channel, clouds };
     try {
       for (let thread = 0; thread < builder.numThreads(); thread++) workers.push(newWorker());
       await Promise.all(workers.map((worker) => joined(worker, message)));

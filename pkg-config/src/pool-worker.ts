@@ -1,9 +1,10 @@
 // One worker of the thread pool: it runs rayon's loop in the shared memory until it is ended.
+import { useMain } from './clouds.js';
 import type { PoolMessage } from './pool-start.js';
 
-async function join({ module, memory, receiver, channel }: PoolMessage): Promise<void> {
+async function join({ module, memory, receiver, channel, clouds }: PoolMessage): Promise<void> {
   const glue = await import('./threads/fast_winding.js');
-  await glue.default({ module_or_path: module, memory });
+  useMain(await glue.default({ module_or_path: module, memory }), clouds);
   self.postMessage('fast-winding-pool-ready');
   try {
     glue.wbg_rayon_start_worker(receiver);

@@ -1,7 +1,9 @@
 // The worker's side: starts the engine and answers calls, one at a time. The same in a browser and in Node.
 import { describeError } from './error.js';
+import { isMissing, provide, sharedPart, useMain } from './clouds.js';
 import { Engine, type Glue } from './engine.js';
-import { initialPages } from './threads/memory.js';
+import type { Build } from './locate.js';
+import { cloudsBytes, initialPages } from './threads/memory.js';
 import { usePoolStarter } from './pool.js';
 import { poolStarter } from './pool-start.js';
 import type { FromWorker, Ready, StartMessage, ToWorker } from './protocol.js';
@@ -14,7 +16,9 @@ const PROGRESS_INTERVAL = 30;
 export interface Host {
   post(message: FromWorker, transfer: Transferable[]): void;
   /** The WebAssembly of a build, from `wasmUrl` or from beside this module; `undefined` leaves it to wasm-bindgen's code. */
-  load(build: 'threads' | 'single', wasmUrl: string | undefined): Promise<WebAssembly.Module | undefined>;
+  load(build: Build, wasmUrl: string | undefined): Promise<WebAssembly.Module | undefined>;
+  /** The part that clouds need. */
+  clouds(build: Build, wasmUrl: string | undefined): Promise<ArrayBuffer>;
 }
 
 function sharedMemory(): WebAssembly.Memory {
@@ -33,8 +37,9 @@ async function startThreads(host: Host, { threads, wasmUrl, channel, reason }: S
   const memory = sharedMemory();
   const module = await host.load('threads', wasmUrl);
   const glue = await import('./threads/fast_winding.js');
-  await glue.default({ module_or_path: module!, memory });
-  usePoolStarter(poolStarter(channel));
+  const clouds = sharedPart(cloudsBytes);
+  useMain(await glue.default({ module_or_path: module!, memory }), clouds);
+  usePoolStarter(poolStarter(channel, clouds));
   await glue.initThreadPool(threads);
   const engine = new Engine(glue as unknown as Glue);
   const cancel = { buffer: memory.buffer as unknown as SharedArrayBuffer, address: engine.job.address() };
@@ -44,7 +49,7 @@ async function startThreads(host: Host, { threads, wasmUrl, channel, reason }: S
 async function startSingle(host: Host, { wasmUrl }: StartMessage, reason: string): Promise<[Engine, Ready]> {
   const module = await host.load('single', wasmUrl);
   const glue = await import('./single/fast_winding.js');
-  await glue.default({ module_or_path: module! });
+  useMain(await glue.default({ module_or_path: module! }));
   const engine = new Engine(glue);
   return [engine, { type: 'ready', threads: 0, reason, version: engine.version, cancel: undefined }];
 }
@@ -79,13 +84,15 @@ function throttled(host: Host, id: number): (fraction: number, stage: string) =>
 }
 
 /** Answers the messages of one client; returns the function to call with each. */
-export function serve(host: Host): (message: ToWorker) => void {
+export function serve(host: Host): (message: ToWorker) => Promise<void> {
   let engine: Engine;
+  let loadClouds: () => Promise<ArrayBuffer>;
   const fail = (id: number | undefined, thrown: unknown) => host.post({ type: 'error', id, ...describeError(thrown) }, []);
   const begin = async (message: StartMessage) => {
     try {
       const [started, ready] = await start(host, message);
       engine = started;
+      loadClouds = () => host.clouds(ready.threads > 0 ? 'threads' : 'single', message.wasmUrl);
       host.post(ready, []);
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
@@ -93,9 +100,10 @@ export function serve(host: Host): (message: ToWorker) => void {
       fail(undefined, { code, message: `the engine could not start: ${why}`, details: {} });
     }
   };
-  return (message) => {
-    if (message.type === 'start') return void begin(message);
+  return async (message) => {
+    if (message.type === 'start') return begin(message);
     try {
+      if (isMissing() && engine.needsClouds(message)) await provide(loadClouds);
       const value = engine.run(message, throttled(host, message.id));
       host.post({ type: 'result', id: message.id, value }, [...buffersOf(value)]);
     } catch (error) {

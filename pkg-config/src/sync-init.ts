@@ -1,4 +1,5 @@
 import type { CallOptions, InitOptions } from './api.js';
+import { provide, useMain } from './clouds.js';
 import { Engine } from './engine.js';
 import { WindingError, describeError } from './error.js';
 import type { Request } from './protocol.js';
@@ -65,13 +66,16 @@ class Direct implements Caller {
 
 export type SyncInitOptions = Pick<InitOptions, 'wasmUrl'>;
 
-/**
- * `init` for a platform that loads the WebAssembly of the single-threaded build with `load`, or leaves it to
- * wasm-bindgen's code, which finds it beside itself.
- */
-export function syncInitFor(
-  load: (wasmUrl: string | URL | undefined) => Promise<WebAssembly.Module | undefined>,
-): (options?: SyncInitOptions) => Promise<FastWinding> {
+/** How a platform loads the WebAssembly of the single-threaded build. */
+export interface SyncPlatform {
+  /** `undefined` leaves it to wasm-bindgen's code, which finds it beside itself. */
+  load(wasmUrl: string | undefined): Promise<WebAssembly.Module | undefined>;
+  /** The part that clouds need. */
+  clouds(wasmUrl: string | undefined): Promise<ArrayBuffer>;
+}
+
+/** `init` for a platform. */
+export function syncInitFor(platform: SyncPlatform): (options?: SyncInitOptions) => Promise<FastWinding> {
   let engine: Promise<FastWinding> | undefined;
   let direct: Direct | undefined;
   /** The module holds one instance: after a crash or `dispose` it is made anew. */
@@ -80,8 +84,13 @@ export function syncInitFor(
   async function start({ wasmUrl }: SyncInitOptions): Promise<FastWinding> {
     if (!hasSimd()) throw new WindingError('Unsupported', 'this machine has no WebAssembly SIMD, which the engine needs');
     const glue = await import('./single/fast_winding.js');
+    const url = wasmUrl === undefined ? undefined : String(wasmUrl);
+    // Calls answer at once: what some of them need is there before the first.
+    const clouds = platform.clouds(url);
+    clouds.catch(() => {});
     if (isLoaded) glue.__wbg_reset_state();
-    else await glue.default({ module_or_path: (await load(wasmUrl))! });
+    useMain(await glue.default(isLoaded ? undefined : { module_or_path: (await platform.load(url))! }));
+    await provide(() => clouds);
     isLoaded = true;
     direct = new Direct(new Engine(glue));
     return facade(direct) as FastWinding;

@@ -1,5 +1,5 @@
 // The engine's worker in a browser.
-import { fetchModule, wasmFile } from './locate.js';
+import { cloudsFile, fetchBytes, fetchModule, wasmFile } from './locate.js';
 import { serve } from './serve.js';
 
 const answer = serve({
@@ -8,5 +8,7 @@ const answer = serve({
     if (wasmUrl) return fetchModule(wasmFile(build, wasmUrl));
     return build === 'threads' ? fetchModule((await import('./threads-wasm.js')).threadsWasm) : undefined;
   },
+  clouds: async (build, wasmUrl) =>
+    fetchBytes(wasmUrl ? cloudsFile(build, wasmUrl) : (await import('./clouds-wasm.js')).cloudsWasm[build]),
 });
 self.addEventListener('message', ({ data }) => answer(data));

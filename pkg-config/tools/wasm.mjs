@@ -1,20 +1,26 @@
 // The two WebAssembly builds, from one source: `threads` (shared memory, atomics, SIMD) and `single` (SIMD).
-import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { npmTool } from './npm.mjs';
 import { fingerprint, onceFor } from './inputs.mjs';
 import { root, wasmTarget } from './paths.mjs';
 import { StepFailed, run, say } from './run.mjs';
 import { bindgenTools, wasmEnvironment, wasmToolchain } from './rust.mjs';
+import { split } from './split.mjs';
+
+/** The file beside `fast_winding_bg.wasm` with what is loaded when first needed: areas and normals of clouds. */
+export const CLOUDS = 'fast_winding_clouds.wasm';
+const IN_CLOUDS = /fast_winding\[[0-9a-f]+\]::(orient|estimate|treecode::mutual)::/;
 
 const RUST_INPUTS = ['Cargo.toml', 'Cargo.lock', 'src', 'pkg-config/tools'];
 /**
  * A panic's place in the source would cost a tenth of the download; its message stays. Less inlining than LLVM's 225 saves
  * another twentieth; the kernels, which matter for speed, ask for theirs in the source. Newer compilers unwind by exnref,
- * which Node 20 does not know: the older instructions run everywhere.
+ * which Node 20 does not know: the older instructions run everywhere. Functions that are equal by chance stay apart: one name
+ * for two of them would put into the part that is loaded later what is needed sooner.
  */
 const LLVM = ['-inline-threshold=60', '-wasm-use-legacy-eh=true'].map((option) => `-C llvm-args=${option}`).join(' ');
-const COMMON = `-C panic=unwind -Z location-detail=none ${LLVM}`;
+const COMMON = `-C panic=unwind -Z location-detail=none -Z merge-functions=disabled ${LLVM}`;
 const SIMD = `${COMMON} -C target-feature=+bulk-memory,+mutable-globals,+simd128`;
 const THREADS = [
   `${COMMON} -C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128`,
@@ -45,10 +51,10 @@ const PLAIN = { command: ['build', '--lib'], environment: {}, optimisation: OPTI
 
 /** Each build by name: its flags, the target directory it shares, features of the crate, how it is compiled and optimised. */
 const VARIANTS = {
-  threads: { flags: THREADS, target: 'threads', features: [], ...PLAIN },
-  single: { flags: SIMD, target: 'single', features: [], ...SMALL },
+  threads: { flags: THREADS, target: 'threads', features: ['pieces'], ...PLAIN },
+  single: { flags: SIMD, target: 'single', features: ['pieces'], ...SMALL },
   /** Not part of the package: the threads build with calls that panic and trap on purpose. */
-  faults: { flags: THREADS, target: 'threads', features: ['faults'], ...PLAIN },
+  faults: { flags: THREADS, target: 'threads', features: ['pieces', 'faults'], ...PLAIN },
 };
 
 /** Runs cargo for wasm32 with the flags of `variant`; `args` begin with the command. Resolves to what it printed. */
@@ -87,12 +93,17 @@ function replacePoolHelpers(folder) {
   rmSync(join(folder, 'snippets'), { recursive: true });
 }
 
-/** The least size of the shared memory, in pages of 64 KiB, for the client, which makes that memory itself. */
-function writeInitialPages(folder) {
+/**
+ * The least size of the shared memory, in pages of 64 KiB, for the client, which makes that memory itself; and how many
+ * bytes the part for clouds has, which goes to all threads in shared memory.
+ */
+function writeSizes(folder) {
   const pages = readFileSync(join(folder, 'fast_winding.js'), 'utf8').match(/Memory\(\{\s*initial:\s*(\d+)/)?.[1];
   if (!pages) throw new StepFailed(`wasm-bindgen's output in ${folder} does not say how large its memory starts`);
-  writeFileSync(join(folder, 'memory.js'), `export const initialPages = ${pages};\n`);
-  writeFileSync(join(folder, 'memory.d.ts'), 'export declare const initialPages: number;\n');
+  const sizes = { initialPages: pages, cloudsBytes: statSync(join(folder, CLOUDS)).size };
+  const lines = Object.entries(sizes).map(([name, size]) => `export const ${name} = ${size};\n`);
+  writeFileSync(join(folder, 'memory.js'), lines.join(''));
+  writeFileSync(join(folder, 'memory.d.ts'), Object.keys(sizes).map((name) => `export declare const ${name}: number;\n`).join(''));
 }
 
 async function bindAndOptimise(variant) {
@@ -105,13 +116,12 @@ async function bindAndOptimise(variant) {
   // So that `./sync`, whose engine lives as long as its module, can begin anew after a crash.
   const reset = target === 'single' ? ['--experimental-reset-state-function'] : [];
   await run(bindgen, ['--target', 'web', ...reset, '--out-dir', folder, '--out-name', 'fast_winding', compiled]);
-  if (target === 'threads') {
-    replacePoolHelpers(folder);
-    writeInitialPages(folder);
-  }
+  if (target === 'threads') replacePoolHelpers(folder);
   const wasm = join(folder, 'fast_winding_bg.wasm');
   cpSync(wasm, join(wasmTarget(target), `${variant}-with-names.wasm`));
-  say(`${variant}: wasm-opt`);
+  say(`${variant}: splitting and wasm-opt`);
+  await split(wasm, join(folder, CLOUDS), IN_CLOUDS, optimisation);
+  if (target === 'threads') writeSizes(folder);
   await run('node', [npmTool('binaryen', 'wasm-opt'), ...optimisation, wasm, '-o', wasm]);
 }
 
@@ -119,7 +129,7 @@ async function bindAndOptimise(variant) {
 export async function buildVariant(variant) {
   const { target, features, command, environment } = VARIANTS[variant];
   const stamp = join(wasmTarget(target), `built-${variant}`);
-  const results = [join(wasmOutput(variant), 'fast_winding_bg.wasm')];
+  const results = ['fast_winding_bg.wasm', CLOUDS].map((name) => join(wasmOutput(variant), name));
   return onceFor(stamp, fingerprint(RUST_INPUTS, [variant]), results, async () => {
     say(`${variant}: compiling the WebAssembly build (some minutes the first time)`);
     await wasmCargo(variant, [...command, ...(features.length ? ['--features', features.join()] : [])], environment);

@@ -54,6 +54,8 @@ pub enum EstimateError {
 /// # Errors
 /// If and only if the cloud is empty or without normals, all its points are in one place and it has no areas, or `monitor`
 /// cancels.
+// Not part of its caller, which the package for JavaScript loads sooner.
+#[inline(never)]
 pub fn complete(
     cloud: &PointCloud,
     config: &EstimateConfig,

@@ -31,6 +31,8 @@ impl Default for OrientMethod {
 /// # Errors
 /// If and only if the cloud is empty, `monitor` cancels, or the cloud has normals, but no areas, and all its points are in one
 /// place.
+// Not part of its caller, which the package for JavaScript loads sooner.
+#[inline(never)]
 pub fn orient(
     cloud: &PointCloud,
     method: &OrientMethod,

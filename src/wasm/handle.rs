@@ -10,6 +10,7 @@ use crate::data::{OrientedCloud, PointCloud, Shape, TriangleSoup, Warning};
 use crate::estimate::{self, EstimateConfig};
 use crate::io::{self, Geometry};
 use crate::math::Aabb;
+use crate::orient::{OrientMethod, orient};
 use crate::winding::{FieldConfig, WindingField};
 use js_sys::{Object, Reflect, Uint8Array, Uint32Array};
 use std::sync::Arc;
@@ -133,14 +134,19 @@ impl Handle {
         ]))
     }
 
+    /// Whether a call about this shape first estimates normals or areas.
+    #[wasm_bindgen(js_name = isRaw)]
+    pub fn is_raw(&self) -> bool {
+        matches!(self.source, Source::Cloud { oriented: None, .. })
+    }
+
     /// Gives a cloud normals that it lacks, and areas; describes it anew.
     ///
     /// # Errors
     /// If and only if this is no cloud or the call is aborted.
     pub fn orient(&mut self, options: JsValue, job: &Job) -> Result<Object, JsValue> {
         let options: options::OrientOptions = options::from_js(options)?;
-        options.check()?;
-        self.estimate_normals(job)?;
+        self.estimate_normals(&options.method()?, job)?;
         self.describe()
     }
 
@@ -196,20 +202,20 @@ impl Handle {
     fn orient_where_asked(&mut self, orient: Option<options::Orient>, job: &Job) -> Result<(), Failure> {
         match (&self.source, orient) {
             (Source::Cloud { given, .. }, Some(options::Orient::Auto)) if given.normals().is_none() => {
-                self.estimate_normals(job)
+                self.estimate_normals(&OrientMethod::default(), job)
             }
             _ => Ok(()),
         }
     }
 
-    fn estimate_normals(&mut self, job: &Job) -> Result<(), Failure> {
+    fn estimate_normals(&mut self, method: &OrientMethod, job: &Job) -> Result<(), Failure> {
         let Source::Cloud { given, oriented } = &mut self.source else {
             return Err(Failure::invalid(
                 "a soup has its orientation from its triangles: only clouds are oriented",
             ));
         };
         if oriented.is_none() {
-            let (cloud, warnings) = estimate::orient(given, &EstimateConfig::default(), job)?;
+            let (cloud, warnings) = orient(given, method, job)?;
             *oriented = Some(Arc::new(cloud));
             self.warnings.extend(warnings);
         }

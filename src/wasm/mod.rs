@@ -8,6 +8,8 @@ mod faults;
 mod handle;
 mod job;
 mod options;
+#[cfg(feature = "pieces")]
+mod pieces;
 mod queries;
 mod results;
 

@@ -3,6 +3,7 @@ use super::failure::{Failure, object};
 use crate::data::{Lattice, Layer, Polygon, Ring, Warning};
 use crate::io::{self, CloudFormat, MeshFormat};
 use crate::math::{Aabb, Vec2};
+use crate::orient::{ConsistencyConfig, OrientMethod, Widths};
 use crate::slice::{LayerPlan, SampleAt, SliceConfig};
 use crate::solid::{VoxelConfig, VoxelMethod};
 use crate::surface::SurfaceConfig;
@@ -44,17 +45,32 @@ impl ReadOptions {
 }
 
 #[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct OrientOptions {
     method: Option<String>,
+    noise_level: Option<f64>,
 }
 
 impl OrientOptions {
-    pub fn check(&self) -> Result<(), Failure> {
+    pub fn method(&self) -> Result<OrientMethod, Failure> {
         match self.method.as_deref() {
-            None | Some("propagation") => Ok(()),
-            Some(other) => Err(Failure::invalid(format!("unknown method '{other}': 'propagation' is known"))),
+            None | Some("consistency") => {
+                let widths = self.noise_level.map(widths_of).transpose()?;
+                Ok(OrientMethod::Consistency(ConsistencyConfig { widths, ..Default::default() }))
+            }
+            Some("propagation") => Ok(OrientMethod::Propagation),
+            Some(other) => Err(Failure::invalid(format!(
+                "unknown method '{other}': 'consistency' and 'propagation' are known"
+            ))),
         }
     }
+}
+
+fn widths_of(level: f64) -> Result<Widths, Failure> {
+    let known = Widths::ALL.into_iter().enumerate().find(|(k, _)| *k as f64 == level);
+    known
+        .map(|(_, widths)| widths)
+        .ok_or_else(|| Failure::invalid(format!("noiseLevel is {level}: 0, 1, 2, 3, 4 and 5 are known")))
 }
 
 /// How winding numbers are to be computed.

@@ -49,7 +49,7 @@ async function inPage(server, origin, file, action) {
   }
 }
 
-/** A loose tetrahedron asked twice; run in the page. */
+/** A tetrahedron asked twice, and a cloud without normals, for which more is loaded; run in the page. */
 const ask = async ({ init }) => {
   const fw = await init();
   const soup = await fw.Soup.from({
@@ -58,9 +58,13 @@ const ask = async ({ init }) => {
   });
   const inside = [...(await soup.contains(new Float64Array([0.2, 0.2, 0.2, 1, 1, 1])))];
   const { counts } = await soup.voxelize({ resolution: 3 });
-  return { inside, counts, threads: fw.info.threads, reason: fw.info.reason, isolated: self.crossOriginIsolated };
+  const onSphere = (i, z = (2 * i + 1) / 3000 - 1, r = Math.sqrt(1 - z * z)) => [r * Math.cos(2.4 * i), r * Math.sin(2.4 * i), z];
+  const cloud = await fw.Cloud.from({ points: new Float64Array(Array.from({ length: 3000 }, (_, i) => onSphere(i)).flat()) });
+  await cloud.orient();
+  const centre = (await cloud.windingNumbers(new Float64Array(3)))[0].toFixed(2);
+  return { inside, counts, centre, threads: fw.info.threads, reason: fw.info.reason, isolated: self.crossOriginIsolated };
 };
-const answers = { inside: [1, 0], counts: [3, 3, 3] };
+const answers = { inside: [1, 0], counts: [3, 3, 3], centre: '1.00' };
 
 test('an isolated page gets threads', async () => {
   const { threads, reason, ...rest } = await inPage(servers.isolated, servers.isolated.origin, 'index.js', ask);
@@ -82,8 +86,8 @@ test('the package may come from another origin, threads included', async () => {
 });
 
 test('the synchronous entry works on the page itself', async () => {
-  const { inside, threads } = await inPage(servers.plain, servers.plain.origin, 'sync.js', ask);
-  assert.deepEqual([inside, threads], [[1, 0], 0]);
+  const { inside, centre, threads } = await inPage(servers.plain, servers.plain.origin, 'sync.js', ask);
+  assert.deepEqual([inside, centre, threads], [[1, 0], '1.00', 0]);
 });
 
 test('an abort takes effect in both builds, and the page stays responsive meanwhile', async () => {

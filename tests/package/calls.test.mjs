@@ -1,10 +1,14 @@
 // What surrounds the calls: starting, errors, abort, progress, freeing.
 import assert from 'node:assert/strict';
+import { cpSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 import { install } from './install.mjs';
 import { box, boxObj, sphere, torus } from './shapes.mjs';
 
-const { load } = install();
+const { home, load } = install();
 const { init, WindingError } = await load('node/index.js');
 const sync = await load('node/sync.js');
 const LONG = { resolution: 500, threshold: 0.25 };
@@ -75,6 +79,36 @@ for (const [name, start] of Object.entries(entries)) {
     await fails(() => soup.heatMap({ z: 0.5, resolution: 1e6 }), 'OutOfMemory');
     assert.deepEqual(await soup.contains(new Float64Array([0.5, 0.5, 0.5])), new Uint8Array([1]), 'the engine goes on');
     fw.dispose();
+  });
+
+  test(`${name}: without the part of the WebAssembly for clouds, only what needs it fails`, async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'fast-winding-wasm-'));
+    for (const build of ['threads', 'single']) {
+      const file = `${build}/fast_winding_bg.wasm`;
+      cpSync(join(home, 'dist', file), join(folder, file));
+    }
+    const fw = await (name === 'sync' ? sync.init : init)({ wasmUrl: pathToFileURL(folder).href, threads: 2 });
+    const { points } = sphere(500, 1);
+    const cloud = await fw.Cloud.from({ points });
+    const fails = (action) =>
+      assert.rejects(async () => action(), (error) => {
+        assert.deepEqual([error.code, error.name], ['LoadFailed', 'WindingError']);
+        assert.match(error.message, /for clouds could not be loaded: .*fast_winding_clouds\.wasm/);
+        return true;
+      });
+    await fails(() => cloud.orient());
+    await fails(() => cloud.orient());
+    await fails(() => fw.Cloud.from({ points }, { orient: 'auto' }));
+    assert.equal((await cloud.geometry()).positions.length, points.length);
+    const soup = await fw.Soup.from(box(0, 1));
+    assert.deepEqual([...(await soup.contains(new Float64Array([0.5, 0.5, 0.5])))], [1]);
+    if (name === 'worker') {
+      cpSync(join(home, 'dist/threads/fast_winding_clouds.wasm'), join(folder, 'threads/fast_winding_clouds.wasm'));
+      await cloud.orient();
+      assert.ok(cloud.hasNormals, 'it is loaded as soon as it is there');
+    }
+    fw.dispose();
+    rmSync(folder, { recursive: true });
   });
 
   test(`${name}: freed shapes say so`, async () => {

@@ -1,9 +1,7 @@
 // The engine's worker in Node: what a browser's worker has, made of node:worker_threads, then the same.
-import { readFile } from 'node:fs/promises';
-import { fileURLToPath } from 'node:url';
 import { Worker as NodeWorker, parentPort } from 'node:worker_threads';
-import { fetchModule, wasmFile } from '../locate.js';
 import type { ToWorker } from '../protocol.js';
+import { cloudsOf, moduleOf } from './files.js';
 
 /** As much of a browser's Worker as the thread pool uses. */
 class PoolWorker {
@@ -26,10 +24,7 @@ const { serve } = await import('../serve.js');
 const port = parentPort!;
 const answer = serve({
   post: (message, transfer) => port.postMessage(message, transfer as never),
-  load: async (build, wasmUrl) => {
-    const url = new URL(wasmUrl ? wasmFile(build, wasmUrl) : `../${build}/fast_winding_bg.wasm`, import.meta.url);
-    if (url.protocol !== 'file:') return fetchModule(url);
-    return WebAssembly.compile(await readFile(fileURLToPath(url)));
-  },
+  load: moduleOf,
+  clouds: cloudsOf,
 });
 port.on('message', (message: ToWorker) => answer(message));
