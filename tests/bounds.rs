@@ -5,7 +5,9 @@ use common::*;
 use fast_winding::data::{OrientedCloud, Shape, Silent, TriangleSoup};
 use fast_winding::math::{Vec3, side_of_plane};
 use fast_winding::treecode::{Kernel, Scratch, Tree, TreeConfig};
-use fast_winding::winding::{FieldConfig, Triangles, WindingField, winding};
+use fast_winding::winding::{
+    Dipoles, FieldConfig, Triangles, WindingField, bounded_winding_of_cloud, winding, winding_of_cloud,
+};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -52,11 +54,16 @@ fn queries(shape: &Shape, near: impl Fn(usize) -> Vec3, count: usize) -> Vec<Vec
 }
 
 /// The largest share of its bound that an error takes.
-fn largest_share<K: Kernel>(kernel: &K, shape: &Shape, queries: &[Vec3], beta: f64) -> f64 {
+fn largest_share<K: Kernel>(
+    kernel: &K,
+    exact: impl Fn(Vec3) -> f64 + Sync,
+    queries: &[Vec3],
+    beta: f64,
+) -> f64 {
     let tree = Tree::build(kernel, &TreeConfig { leaf_size: 8 });
     let share = |q: &Vec3| {
         let (w, bound) = tree.bounded(*q, beta, &mut Scratch::default());
-        (w - winding(shape, *q)).abs() / bound
+        (w - exact(*q)).abs() / bound
     };
     queries.par_iter().map(share).reduce(|| 0.0, f64::max)
 }
@@ -68,7 +75,7 @@ fn errors_stay_within_their_bounds() {
         let shape = Shape::Soup(soup.clone());
         let queries = queries(&shape, |t| soup.corners(t)[0], 3000);
         for beta in [1.5, 2.0, 4.0, 10.0, 60.0] {
-            let share = largest_share(&Triangles::new(soup.clone()), &shape, &queries, beta);
+            let share = largest_share(&Triangles::new(soup.clone()), |q| winding(&shape, q), &queries, beta);
             println!("soup of {}: {share} for β {beta}", soup.len());
             assert!(share < 1.0, "soup of {}: {share} of the bound for β {beta}", soup.len());
             // The first terms left out matter: a bound that is never approached would decide nothing.
@@ -76,11 +83,18 @@ fn errors_stay_within_their_bounds() {
         }
         for turned in [false, true] {
             let cloud = Arc::new(dipoles(&soup, turned));
-            let shape = Shape::Cloud(cloud.clone());
             for beta in [1.5, 2.0, 4.0, 10.0, 60.0] {
-                let share = largest_share(&*cloud, &shape, &queries, beta);
-                println!("cloud of {}: {share} for β {beta}", soup.len());
+                let plain = Dipoles::new(cloud.clone(), false);
+                let share = largest_share(&plain, |q| winding_of_cloud(&cloud, q), &queries, beta);
+                let bounded = Dipoles::new(cloud.clone(), true);
+                let share_of_bounded =
+                    largest_share(&bounded, |q| bounded_winding_of_cloud(&cloud, q), &queries, beta);
+                println!("cloud of {}: {share}, bounded {share_of_bounded} for β {beta}", soup.len());
                 assert!(share < 1.0, "cloud of {}: {share} of the bound for β {beta}", soup.len());
+                assert!(
+                    share_of_bounded < 1.0,
+                    "bounded cloud: {share_of_bounded} of the bound for β {beta}"
+                );
             }
         }
     }
@@ -89,11 +103,16 @@ fn errors_stay_within_their_bounds() {
 /// Few points at a time, so that each is decided by itself.
 fn check_few(shape: impl Into<Shape>, queries: &[Vec3]) {
     let field = WindingField::new(shape, FieldConfig::default());
+    check(&field, queries, 300, |q| winding(field.shape(), q));
+}
+
+/// So many queries at a time.
+fn check(field: &WindingField, queries: &[Vec3], together: usize, exact: impl Fn(Vec3) -> f64 + Sync) {
     let mut inside = Vec::new();
-    for some in queries.chunks(300) {
+    for some in queries.chunks(together) {
         inside.extend(field.contains(some, &Silent).unwrap());
     }
-    let expected: Vec<f64> = queries.par_iter().map(|q| winding(field.shape(), *q)).collect();
+    let expected: Vec<f64> = queries.par_iter().map(|q| exact(*q)).collect();
     let mut compared = 0;
     for ((q, w), inside) in queries.iter().zip(expected).zip(inside) {
         if (w - 0.5).abs() > 1e-9 {
@@ -114,6 +133,20 @@ fn few_points_are_decided_right() {
     check_few(dipoles(&scraps, true), &points);
     let torus = torus(1.0, 0.4, 50, 24);
     check_few(dipoles(&torus, false), &points);
+}
+
+#[test]
+fn points_of_bounded_clouds_are_decided_right() {
+    let scraps = scraps(3000);
+    for cloud in [dipoles(&scraps, true), dipoles(&torus(1.0, 0.4, 50, 24), false), sphere_cloud(5000)] {
+        let cloud = Arc::new(cloud);
+        let config = FieldConfig { bounded: true, ..FieldConfig::default() };
+        let field = WindingField::new(cloud.clone(), config);
+        let points = queries(&Shape::Cloud(cloud.clone()), |i| cloud.points()[i], 3000);
+        let exact = |q: Vec3| bounded_winding_of_cloud(&cloud, q);
+        check(&field, &points, 300, exact);
+        check(&field, &points, 3000, exact);
+    }
 }
 
 /// Along a straight line through the place where w = ½, closer and closer to it.

@@ -5,7 +5,7 @@ use common::*;
 use fast_winding::data::{Lattice, OrientedCloud, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3};
 use fast_winding::treecode::{DualAccuracy, DualTree, LatticeTargets, PointTargets, Proof, Sources, Targets};
-use fast_winding::winding::{Triangles, winding_of_cloud, winding_of_soup};
+use fast_winding::winding::{Dipoles, Triangles, winding_of_cloud, winding_of_soup};
 use std::sync::Arc;
 
 const LEAF: usize = 8;
@@ -54,6 +54,10 @@ fn check(sources: Arc<dyn Sources>, exact: impl Fn(Vec3) -> f64, bounds: Aabb, s
     }
 }
 
+fn dipoles(cloud: &OrientedCloud) -> Arc<Dipoles> {
+    Arc::new(Dipoles::new(Arc::new(cloud.clone()), false))
+}
+
 fn of(soup: &TriangleSoup) -> Arc<Triangles> {
     Arc::new(Triangles::new(Arc::new(soup.clone())))
 }
@@ -64,7 +68,7 @@ fn check_soup(soup: &TriangleSoup, strength: f64) {
 }
 
 fn check_cloud(cloud: &OrientedCloud, strength: f64) {
-    check(Arc::new(cloud.clone()), |q| winding_of_cloud(cloud, q), cloud.bounds().padded(0.1), strength);
+    check(dipoles(cloud), |q| winding_of_cloud(cloud, q), cloud.bounds().padded(0.1), strength);
 }
 
 fn broken_torus() -> TriangleSoup {
@@ -131,7 +135,7 @@ fn equal_points_and_queries_on_points_are_right() {
     check_cloud(&cloud(vec![Vec3::ONE; 5000]), ANY);
     check_cloud(&cloud(vec![Vec3::ONE]), ANY);
     let sphere = sphere_cloud(2000);
-    let tree = DualTree::build(Arc::new(sphere.clone()), LEAF);
+    let tree = DualTree::build(dipoles(&sphere), LEAF);
     let results = evaluate(&tree, &PointTargets::new(sphere.points()), 2000, DualAccuracy::FINER);
     for (q, (value, bound)) in sphere.points().iter().zip(results) {
         let error = (value - winding_of_cloud(&sphere, *q)).abs();
@@ -256,7 +260,7 @@ fn tolerances_are_kept_on_a_scan() {
     let points = scattered(bunny.bounds(), 300, 11);
     let of_soup: Vec<f64> = points.iter().map(|q| winding_of_soup(&bunny, *q)).collect();
     let of_cloud: Vec<f64> = points.iter().map(|q| winding_of_cloud(&cloud, *q)).collect();
-    let (soup_tree, cloud_tree) = (DualTree::build(of(&bunny), LEAF), DualTree::build(Arc::new(cloud), LEAF));
+    let (soup_tree, cloud_tree) = (DualTree::build(of(&bunny), LEAF), DualTree::build(dipoles(&cloud), LEAF));
     let targets = PointTargets::new(&points);
     for tolerance in [1e-2f64, 1e-3, 1e-4, 1e-5] {
         let keeps = |results: Vec<(f64, f64)>, expected: &[f64]| {

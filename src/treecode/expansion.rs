@@ -94,11 +94,14 @@ impl Remainder {
     pub const NOTHING: Remainder = Remainder { third: f32x4::ZERO, area: f32x4::ZERO, count: 0 };
 
     /// A bound of the error of w: the term of degree k of the field of an area a at y is at most (k+1) a |y|ᵏ / 4π|R|ᵏ⁺²,
-    /// |y| ≤ r ≤ |R| / β, and with t = 1/β the sum of (k+1) t^(k−3) over k > 2 is (4 − 3t) / (1 − t)².
-    pub fn bound(&self, beta: f64) -> f64 {
+    /// |y| ≤ r ≤ |R| / β, and with t = 1/β the sum of (k+1) t^(k−3) over k > 2 is (4 − 3t) / (1 − t)². Sources lack up to
+    /// `lacking` / β² of a / 4πd², d ≥ (1 − t) |R| being their own distance, for each such share of a field.
+    pub fn bound(&self, beta: f64, lacking: f64) -> f64 {
         let t = 1.0 / beta;
-        let tail = (4.0 - 3.0 * t) / ((1.0 - t) * (1.0 - t));
-        let rounding = ROUNDING + ROUNDING_OF_SUM * f64::from(self.count);
+        let square = (1.0 - t) * (1.0 - t);
+        let tail = (4.0 - 3.0 * t) / square;
+        let lacking = lacking * t * t / (square * square);
+        let rounding = ROUNDING + ROUNDING_OF_SUM * f64::from(self.count) + lacking;
         (1.0 + rounding) * (tail * sum_of_lanes(self.third) + rounding * sum_of_lanes(self.area))
     }
 }

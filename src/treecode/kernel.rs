@@ -13,6 +13,8 @@ pub struct Quadrature {
     pub points: [Vec3; 3],
     pub area_vector: Vec3,
     pub area: f64,
+    /// √a of a bounded point of area a, 0 of what is not bounded: nearer than some times this, its field is not a dipole's.
+    pub extent: f64,
 }
 
 /// A kind of source: what its far field is made of and how its near field is summed.
@@ -21,6 +23,8 @@ pub trait Kernel: Sync {
     type Block: Clone + Send + Sync;
     /// A near field while it is being summed.
     type Sum;
+    /// How the sources are summed.
+    type Mode: Copy + Send + Sync;
 
     /// Number of sources.
     fn len(&self) -> usize;
@@ -33,19 +37,20 @@ pub trait Kernel: Sync {
     /// Packs up to four sources; a lane without a source must add nothing.
     fn block(&self, members: [Option<usize>; WIDTH]) -> Self::Block;
 
-    fn sum() -> Self::Sum;
+    fn mode(&self) -> Self::Mode;
+    fn sum(mode: Self::Mode) -> Self::Sum;
     fn add(sum: &mut Self::Sum, block: &Self::Block, query: &Lanes);
     /// The winding number of all blocks added.
     fn total(sum: Self::Sum) -> f64;
 
     /// Adds the gradients of the winding numbers of a block, times 4π, each source in a lane of its own.
-    fn add_gradient(sum: &mut Lanes, block: &Self::Block, query: &Lanes);
+    fn add_gradient(sum: &mut Lanes, block: &Self::Block, query: &Lanes, mode: Self::Mode);
 }
 
 /// Winding numbers at points by the direct sum of a range of sources, in f64: each four of these are packed once.
 pub fn direct_sums<K: Kernel>(sources: &K, range: Range<usize>, points: &[Vec3]) -> Vec<f64> {
     let mut sums: Vec<(Lanes, K::Sum)> =
-        points.iter().map(|q| (q.to_array().map(f64x4::splat), K::sum())).collect();
+        points.iter().map(|q| (q.to_array().map(f64x4::splat), K::sum(sources.mode()))).collect();
     for first in range.clone().step_by(WIDTH) {
         let member = |k: usize| Some(first + k).filter(|m| *m < range.end);
         let block = sources.block(std::array::from_fn(member));

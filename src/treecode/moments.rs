@@ -12,6 +12,8 @@ pub struct Moments {
     pub center: Vec3,
     /// Σ a |y|², y = x − centre
     pub spread: f64,
+    /// The largest extent of a source.
+    pub extent: f64,
     /// Σ a n
     pub zeroth: Vec3,
     /// `first[i]` = Σ a yᵢ n, y = x − centre
@@ -29,6 +31,7 @@ impl Moments {
         let mut moments = Moments { area, center, ..Moments::default() };
         for source in sources {
             moments.zeroth += source.area_vector;
+            moments.extent = moments.extent.max(source.extent);
             for point in source.points {
                 let y = point - center;
                 moments.spread += source.area * y.length_squared() / 3.0;
@@ -48,6 +51,7 @@ impl Moments {
             let d = part.center - center;
             moments.spread += part.spread + part.area * d.length_squared();
             moments.zeroth += part.zeroth;
+            moments.extent = moments.extent.max(part.extent);
             moments.add_displaced(d, part.zeroth);
             for i in 0..3 {
                 moments.first[i] += part.first[i];
@@ -91,7 +95,7 @@ mod tests {
             let t = i as f64;
             let points = [0.3, 1.7, 2.9].map(|s| Vec3::new((t * s).sin(), (t + s).cos(), (t * s * s).sin()));
             let area_vector = Vec3::new((3.0 * t).cos(), 0.5, (2.0 * t).sin());
-            Quadrature { points, area_vector, area: area_vector.length() }
+            Quadrature { points, area_vector, area: area_vector.length(), extent: 0.0 }
         };
         let sources: Vec<Quadrature> = (0..12).map(source).collect();
         let whole = Moments::of_sources(&sources, Vec3::ZERO);

@@ -29,7 +29,15 @@ pub struct Tree<K: Kernel> {
     blocks: Vec<K::Block>,
     /// Where the blocks of each leaf child begin, and how many there are.
     leaf_blocks: Vec<[(u32, u32); WIDTH]>,
+    mode: K::Mode,
+    /// Whether there are bounded points.
+    is_bounded: bool,
 }
+
+/// A cluster of bounded points counts as no smaller than this times their largest extent, √a. Dipoles lack 3x² of each,
+/// x = a cos / 4πd², altogether no more than 3 / 4π(4β)² where all of a closed surface is d = 4β √a away, as in the middle of a
+/// sphere; next to a plane an eighth of that.
+const LEAST_RADIUS: f64 = 4.0;
 
 /// Scratch space of evaluations, kept by the caller so that many share it.
 #[derive(Default)]
@@ -116,7 +124,8 @@ impl<K: Kernel> Tree<K> {
         let frame = Frame::around(&bounds);
         let expansions = expand(kernel, &bvh, &frame);
         let (blocks, leaf_blocks) = pack_leaves(kernel, &bvh);
-        Tree { bvh, frame, expansions, blocks, leaf_blocks }
+        let is_bounded = (0..kernel.len()).any(|i| kernel.quadrature(i).extent > 0.0);
+        Tree { bvh, frame, expansions, blocks, leaf_blocks, mode: kernel.mode(), is_bounded }
     }
 
     /// Winding numbers at up to [`BLOCK`] queries that lie close together, in one walk: each query takes the same clusters
@@ -132,7 +141,7 @@ impl<K: Kernel> Tree<K> {
         let block = Block::new(queries, &self.frame);
         let beta_squared = f32x4::splat((beta * beta) as f32);
         let mut far = [f32x4::ZERO; BLOCK / WIDTH];
-        let mut near: Vec<K::Sum> = queries.iter().map(|_| K::sum()).collect();
+        let mut near: Vec<K::Sum> = queries.iter().map(|_| K::sum(self.mode)).collect();
         let mut far_singly = [f32x4::ZERO; BLOCK];
         let visit = |node: usize, wanted: u64| {
             let expansion = &self.expansions[node];
@@ -181,7 +190,7 @@ impl<K: Kernel> Tree<K> {
             return f64::NAN;
         }
         let lanes = q.to_array().map(f64x4::splat);
-        let mut sum = K::sum();
+        let mut sum = K::sum(self.mode);
         self.blocks.iter().for_each(|block| K::add(&mut sum, block, &lanes));
         K::total(sum)
     }
@@ -233,10 +242,12 @@ fn expand<K: Kernel>(kernel: &K, bvh: &Bvh, frame: &Frame) -> Vec<Expansion> {
 }
 
 /// Distance from a cluster's centre to the farthest corner of its box: an upper bound of the paper's radius, as in the
-/// paper's reference implementation. The exact radius is 10 to 20 % smaller, which makes the same β less accurate.
+/// paper's reference implementation. The exact radius is 10 to 20 % smaller, which makes the same β less accurate. More where
+/// points are bounded.
 fn radius(moments: &Moments, bounds: &Aabb, frame: &Frame) -> f64 {
     let (low, high) = (frame.local(bounds.min), frame.local(bounds.max));
-    (moments.center - low).abs().max((high - moments.center).abs()).length()
+    let corner = (moments.center - low).abs().max((high - moments.center).abs()).length();
+    corner.max(LEAST_RADIUS * moments.extent)
 }
 
 fn localised(source: Quadrature, frame: &Frame) -> Quadrature {
@@ -245,6 +256,7 @@ fn localised(source: Quadrature, frame: &Frame) -> Quadrature {
         points: source.points.map(|p| frame.local(p)),
         area_vector: source.area_vector * area_scale,
         area: source.area * area_scale,
+        extent: source.extent * frame.scale,
     }
 }
 

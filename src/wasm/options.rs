@@ -81,6 +81,7 @@ pub struct AccuracyOptions {
     order: Option<u8>,
     beta: Option<f64>,
     leaf_size: Option<usize>,
+    bounded: Option<bool>,
 }
 
 impl AccuracyOptions {
@@ -109,10 +110,15 @@ impl AccuracyOptions {
     }
 
     pub fn field_config(&self) -> Result<Option<FieldConfig>, Failure> {
-        match self.leaf_size {
-            Some(0) => Err(Failure::invalid("leafSize 0: 1 or more is needed")),
-            size => Ok(size.map(|leaf_size| FieldConfig { leaf_size })),
+        if self.leaf_size == Some(0) {
+            return Err(Failure::invalid("leafSize 0: 1 or more is needed"));
         }
+        let default = FieldConfig::default();
+        let config = FieldConfig {
+            leaf_size: self.leaf_size.unwrap_or(default.leaf_size),
+            bounded: self.bounded.unwrap_or(default.bounded),
+        };
+        Ok((self.leaf_size.is_some() || self.bounded.is_some()).then_some(config))
     }
 }
 

@@ -1,4 +1,5 @@
 //! The field of a cloud: the dual tree for many points, the tree of Barill et al. 2018 for few.
+use super::dipoles::Dipoles;
 use super::many::{InsideTest, Many};
 use crate::data::{Cancelled, Monitor, OrientedCloud};
 use crate::math::Vec3;
@@ -7,27 +8,38 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
 
 pub struct CloudField {
-    cloud: Arc<OrientedCloud>,
+    dipoles: Arc<Dipoles>,
     config: TreeConfig,
     pub many: Many,
-    few: OnceLock<Tree<OrientedCloud>>,
+    few: OnceLock<Tree<Dipoles>>,
     refined: AtomicUsize,
 }
 
 impl CloudField {
-    pub fn new(cloud: Arc<OrientedCloud>, config: TreeConfig) -> CloudField {
-        let many = Many::new(cloud.clone());
-        CloudField { cloud, config, many, few: OnceLock::new(), refined: AtomicUsize::new(0) }
+    pub fn new(cloud: Arc<OrientedCloud>, config: TreeConfig, is_bounded: bool) -> CloudField {
+        let dipoles = Arc::new(Dipoles::new(cloud, is_bounded));
+        let many = Many::new(dipoles.clone());
+        CloudField { dipoles, config, many, few: OnceLock::new(), refined: AtomicUsize::new(0) }
     }
 
     /// The tree for few points. Built outside of the cell that holds it: a thread that waited for another to build could be
     /// the one whose help that other waits for.
-    pub fn few(&self) -> &Tree<OrientedCloud> {
+    pub fn few(&self) -> &Tree<Dipoles> {
         if let Some(tree) = self.few.get() {
             return tree;
         }
-        let _ = self.few.set(Tree::build(&*self.cloud, &self.config));
+        let _ = self.few.set(Tree::build(&*self.dipoles, &self.config));
         self.few.get().expect("it was set just now, here or by another thread")
+    }
+
+    /// The β for which the tree for few points stays within an error: `of_dipoles`, or more for bounded points, which lack up to
+    /// 3 / 4π(4β)² of dipoles; 0.7 of the error is left to that.
+    pub fn beta(&self, of_dipoles: f64, error: f64) -> f64 {
+        if self.is_bounded() { of_dipoles.max((0.0214 / error).sqrt()) } else { of_dipoles }
+    }
+
+    pub fn is_bounded(&self) -> bool {
+        self.dipoles.is_bounded
     }
 
     pub fn bytes(&self) -> usize {
@@ -52,7 +64,7 @@ impl CloudField {
         set: &mut dyn FnMut(usize, bool),
     ) -> Result<(), Cancelled> {
         let exactly = |_: &[usize], points: &[Vec3]| -> Vec<bool> {
-            direct_sums(&*self.cloud, 0..self.cloud.points().len(), points)
+            direct_sums(&*self.dipoles, 0..self.dipoles.cloud.len(), points)
                 .into_iter()
                 .map(|w| w >= threshold)
                 .collect()

@@ -21,11 +21,17 @@ pub struct FieldConfig {
     /// Most triangles or points in a leaf of the tree. On the Stanford bunny, 4, 8 and 16 answer alike over a lattice;
     /// next to the surface 8 is fastest, and 16 builds a third faster in three quarters of the memory.
     pub leaf_size: usize,
+    /// Whether the points of a cloud are bounded (see [`super::bounded`]): no point adds more than a half, so that w stays
+    /// finite and smooth right next to noisy points. The field of a soup is bounded as it is.
+    ///
+    /// Off unless asked for: on clean samples of the bunny the surface {w = 1/2} is a twentieth nearer to the truth without, on
+    /// samples with noise of 1 % of the size its normals are better with (consistency 0.91 rather than 0.89).
+    pub bounded: bool,
 }
 
 impl Default for FieldConfig {
     fn default() -> Self {
-        FieldConfig { leaf_size: 8 }
+        FieldConfig { leaf_size: 8, bounded: false }
     }
 }
 
@@ -123,10 +129,10 @@ impl WindingField {
     /// the first of them is asked for.
     pub fn new(shape: impl Into<Shape>, config: FieldConfig) -> WindingField {
         let shape = shape.into();
-        let config = TreeConfig { leaf_size: config.leaf_size };
+        let (bounded, config) = (config.bounded, TreeConfig { leaf_size: config.leaf_size });
         let engine = match &shape {
             Shape::Soup(soup) => Engine::Soup(Box::new(SoupField::new(soup.clone(), &config))),
-            Shape::Cloud(cloud) => Engine::Cloud(Box::new(CloudField::new(cloud.clone(), config))),
+            Shape::Cloud(cloud) => Engine::Cloud(Box::new(CloudField::new(cloud.clone(), config, bounded))),
         };
         let report = report(&shape, &engine);
         WindingField { bounds: shape.bounds(), shape, config, engine, of_paper: OnceLock::new(), report }
@@ -229,7 +235,11 @@ impl WindingField {
         match accuracy {
             Accuracy::Explicit { order, beta } => Some((order, beta)),
             Accuracy::Tolerance(t) if t < FINEST_EXPANSION => None,
-            Accuracy::Tolerance(t) => Some((Order::Two, self.error_model().beta(t))),
+            Accuracy::Tolerance(t) => {
+                let beta = self.error_model().beta(t);
+                let beta = if let Engine::Cloud(cloud) = &self.engine { cloud.beta(beta, t) } else { beta };
+                Some((Order::Two, beta))
+            }
         }
     }
 
@@ -475,7 +485,10 @@ impl WindingField {
 fn report(shape: &Shape, engine: &Engine) -> FieldReport {
     match engine {
         Engine::Cloud(cloud) => FieldReport {
-            method: "fast winding number of points",
+            method: match cloud.is_bounded() {
+                true => "fast bounded winding number of points",
+                false => "fast winding number of points",
+            },
             elements: shape.len(),
             nodes: cloud.many.clusters(),
             bytes: cloud.bytes(),

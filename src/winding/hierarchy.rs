@@ -84,14 +84,14 @@ impl ExactHierarchy {
         let add = |sum: &mut _, blocks: &Range<usize>| {
             self.blocks[blocks.clone()].iter().for_each(|b| Triangles::add(sum, b, &lanes));
         };
-        let mut sum = Triangles::sum();
+        let mut sum = Triangles::sum(());
         if let (bounds, Some(stand)) = &self.whole
             && !bounds.contains(q)
         {
             add(&mut sum, stand);
             return total(sum);
         }
-        let mut inner = Triangles::sum();
+        let mut inner = Triangles::sum(());
         let visit = |node: usize, ()| {
             let bounds = &self.bvh.nodes()[node].bounds;
             let mut open = 0;

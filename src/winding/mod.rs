@@ -1,6 +1,6 @@
 //! The winding field of a soup or a cloud: one question, *how many times is this point inside?*
 //!
-//! `exact` is the definition and the oracle. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
+//! `exact` is the definition and the oracle, `bounded` that of points that are bounded. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
 //! (`scan` on lattices, `locate` over `columns` at scattered points) and a fraction of what closes it (`chain`, `closure`,
 //! `curtain`), summed on lattices by `boundary` and spared most inside tests of scattered points by `answers`. Clouds
 //! (`cloud_field`) and triangles that are not worth closing (`loose`) are summed by a dual tree where many points are asked
@@ -9,6 +9,7 @@
 mod angle_product;
 mod answers;
 mod boundary;
+mod bounded;
 mod buckets;
 mod chain;
 mod closure;
@@ -36,7 +37,11 @@ mod triangles;
 mod variation;
 
 pub use crate::treecode::{Order, Scratch};
+pub use bounded::{
+    bounded, bounded_gradient_of_cloud, bounded_slope, bounded_winding_in_plane, bounded_winding_of_cloud,
+};
 pub(crate) use chain::{components, net_edges, weld};
+pub use dipoles::Dipoles;
 pub use exact::{winding, winding_of_cloud, winding_of_soup};
 pub use field::{Accuracy, FieldConfig, FieldError, FieldReport, WindingField};
 pub use gradient::{edge_gradient, winding_gradient, winding_gradient_of_cloud, winding_gradient_of_soup};

@@ -59,6 +59,7 @@ impl TriangleBlock {
 impl Kernel for Triangles {
     type Block = TriangleBlock;
     type Sum = AngleProduct;
+    type Mode = ();
 
     fn len(&self) -> usize {
         self.closure.as_ref().map_or(self.soup.len(), |c| c.caps.len() + c.loose.len())
@@ -79,7 +80,7 @@ impl Kernel for Triangles {
         let [a, b, c] = self.corners(index);
         let area_vector = area_vector([a, b, c]);
         let points = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
-        Quadrature { points, area_vector, area: area_vector.length() }
+        Quadrature { points, area_vector, area: area_vector.length(), extent: 0.0 }
     }
 
     fn block(&self, members: [Option<usize>; WIDTH]) -> TriangleBlock {
@@ -87,7 +88,9 @@ impl Kernel for Triangles {
         TriangleBlock { is_decided: self.is_fraction(), ..block }
     }
 
-    fn sum() -> AngleProduct {
+    fn mode(&self) {}
+
+    fn sum((): ()) -> AngleProduct {
         AngleProduct::ONE
     }
 
@@ -117,7 +120,7 @@ impl Kernel for Triangles {
     }
 
     #[inline(always)]
-    fn add_gradient(sum: &mut Lanes, block: &TriangleBlock, q: &Lanes) {
+    fn add_gradient(sum: &mut Lanes, block: &TriangleBlock, q: &Lanes, (): ()) {
         let relative = block.corners.each_ref().map(|c| minus(c, q));
         let lengths = relative.each_ref().map(|r| dot(r, r).sqrt());
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {

@@ -4,7 +4,7 @@ use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent, TriangleSoup};
 use fast_winding::math::Vec3;
 use fast_winding::treecode::{DualAccuracy, DualTree, LatticeTargets, PointTargets, Proof, Sources, Targets};
 use fast_winding::winding::{
-    Accuracy, FieldConfig, Triangles, WindingField, winding_of_cloud, winding_of_soup,
+    Accuracy, Dipoles, FieldConfig, Triangles, WindingField, winding_of_cloud, winding_of_soup,
 };
 use std::fs;
 use std::sync::Arc;
@@ -32,9 +32,8 @@ fn main() {
     measure("bunny", &presets, resolution, of(&bunny), bunny.clone(), |q| winding_of_soup(&bunny, q));
     measure("loose", &presets, resolution, of(&loose), loose.clone(), |q| winding_of_soup(&loose, q));
     let in_cloud: &OrientedCloud = &cloud;
-    measure("cloud", &presets, resolution, Arc::new(cloud.clone()), cloud.clone(), |q| {
-        winding_of_cloud(in_cloud, q)
-    });
+    let dipoles = Arc::new(Dipoles::new(Arc::new(cloud.clone()), false));
+    measure("cloud", &presets, resolution, dipoles, cloud.clone(), |q| winding_of_cloud(in_cloud, q));
 }
 
 fn explicit(parameters: &[f64]) -> DualAccuracy {

@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 /// What sources are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SourceKind {
@@ -29,12 +31,20 @@ impl DualAccuracy {
         if tolerance.is_nan() || tolerance < FINEST {
             return None;
         }
-        let error = 1.6e-4 * libm::pow(1e3 * tolerance, 1.4);
+        let error = ERROR_OF_TOLERANCE * libm::pow(1e3 * tolerance, POWER_OF_TOLERANCE);
         Some(if tolerance > COARSE {
             DualAccuracy { order: 2, degree: 4, error: 0.4 * error }
         } else {
             DualAccuracy { order: 3, degree: 5, error }
         })
+    }
+
+    /// The tolerance that this is for, and what bounded points, which act as dipoles on what is farther than `least` times
+    /// their extents, may lack.
+    pub(super) fn of_bounded_points(&self) -> BoundedPoints {
+        let tolerance = 1e-3 * libm::pow(self.error / ERROR_OF_TOLERANCE, 1.0 / POWER_OF_TOLERANCE);
+        let square = EXTENTS / tolerance;
+        BoundedPoints { least: square.sqrt() as f32, lacking: (3.01 / (4.0 * PI * square)) as f32 }
     }
 
     /// What the field of a source near a block may lack.
@@ -51,6 +61,21 @@ impl DualAccuracy {
         }
     }
 }
+
+/// From where on bounded points act as dipoles.
+#[derive(Clone, Copy)]
+pub(super) struct BoundedPoints {
+    /// Distance in extents, √a.
+    pub least: f32,
+    /// What each lacks there, a share of a / 4πd² of its field: 3x² at most.
+    pub lacking: f32,
+}
+
+const ERROR_OF_TOLERANCE: f64 = 1.6e-4;
+const POWER_OF_TOLERANCE: f64 = 1.4;
+/// Square of the distance in extents, over the tolerance: what bounded points lack altogether, up to 3a/4πd² (see the tree of
+/// single points), is then no more than 0.7 of the tolerance.
+const EXTENTS: f64 = 0.35;
 
 /// Share of the error of a cluster that a single source may have. With 0.3 the largest error at a tolerance of 1e-3 is a fifth
 /// larger, and no time is saved.

@@ -32,6 +32,8 @@ pub struct Clusters {
     pub balls: Vec<Ball>,
     pub links: Vec<Link>,
     pub series: Vec<Series>,
+    /// The largest extents of their sources, if these are bounded; none else.
+    pub extents: Vec<f32>,
     /// The clusters at the top.
     pub roots: Range<usize>,
     /// Sources in the order of the Morton curve.
@@ -88,15 +90,30 @@ impl Clusters {
         let (balls, series) =
             map_items(parts.len(), |k| parts[k].pack(&corners, &spans[k])).into_iter().unzip();
         let roots = levels.first().cloned().unwrap_or(0..0);
-        Clusters { balls, links, series, roots, items: bvh.items().to_vec(), frame }
+        let items = bvh.items().to_vec();
+        let extents = extents(sources, &spans, &items, frame.scale);
+        Clusters { balls, links, series, extents, roots, items, frame }
     }
 
     pub fn bytes(&self) -> usize {
         size_of_val(&self.balls[..])
             + size_of_val(&self.links[..])
             + size_of_val(&self.series[..])
+            + size_of_val(&self.extents[..])
             + size_of_val(&self.items[..])
     }
+}
+
+/// The largest extent of a source of each cluster, in the unit frame; nothing where no source is bounded.
+fn extents(sources: &dyn Sources, spans: &[Range<usize>], items: &[u32], scale: f64) -> Vec<f32> {
+    if (0..sources.len()).all(|i| sources.extent(i) == 0.0) {
+        return vec![];
+    }
+    let of_cluster = |k: usize| {
+        let all = items[spans[k].clone()].iter().map(|i| sources.extent(*i as usize));
+        (scale * all.fold(0.0, f64::max) * ROUND_UP) as f32
+    };
+    map_items(spans.len(), of_cluster)
 }
 
 impl Part {

@@ -19,15 +19,15 @@ pub struct FarFields {
 }
 
 impl FarFields {
-    /// Adds the fields of the clusters `far` to the Taylor polynomial of a block; answers a bound of
-    /// the error made if that is asked for.
+    /// Adds the fields of the clusters `far` to the Taylor polynomial of a block; answers a bound of the error made if that is
+    /// asked for: then `lacking` is what sources lack of the largest field.
     pub fn add(
         &mut self,
         clusters: &Clusters,
         far: &mut [Vec<u32>; CLASSES],
         place: &Place,
         accuracy: &DualAccuracy,
-        is_bounded: bool,
+        lacking: Option<f32>,
         local: &mut Local,
     ) -> f64 {
         if far.iter().all(Vec::is_empty) {
@@ -36,7 +36,7 @@ impl FarFields {
         fill_up(far);
         let (mut sums, mut errors) = ([Octet::ZERO; REDUCED], Octet::ZERO);
         let derivatives = &mut self.derivatives;
-        let errors_if_asked = is_bounded.then_some(&mut errors);
+        let errors_if_asked = lacking.map(|lacking| (ROUNDING_OF_TAYLOR as f32 + lacking, &mut errors));
         let fields =
             Fields { derivatives, clusters, far, place, accuracy, sums: &mut sums, errors: errors_if_asked };
         in_widest_registers(fields);
@@ -65,7 +65,8 @@ struct Fields<'a> {
     place: &'a Place,
     accuracy: &'a DualAccuracy,
     sums: &'a mut [Octet; REDUCED],
-    errors: Option<&'a mut Octet>,
+    /// Bounds of errors, and what rounding and sources lack of the largest field.
+    errors: Option<(f32, &'a mut Octet)>,
 }
 
 impl Work for Fields<'_> {
@@ -104,13 +105,13 @@ impl Fields<'_> {
         self.derivatives.compute(unit, highest);
         self.derivatives.add_taylor((order, degree), &coefficients, reach * inverse, part, self.sums);
 
-        let Some(errors) = &mut self.errors else { return };
+        let Some((lacking, errors)) = &mut self.errors else { return };
         let (inner, outer) = (distance - reach, distance - radius);
         let left_out = bounds::multipole_tail(area, eight.spread.get(part), radius, inner, order)
             + bounds::taylor_tail(area, reach, outer, degree)
             + bounds::products(area, radius * inverse, reach * inverse, distance, (order, degree));
-        let rounding = bounds::largest_field(area, inner - radius);
-        errors.add(part, left_out + F::splat(ROUNDING_OF_TAYLOR as f32) * rounding);
+        let largest = bounds::largest_field(area, inner - radius);
+        errors.add(part, left_out + F::splat(*lacking) * largest);
     }
 }
 
@@ -177,7 +178,8 @@ mod tests {
         let mut local = Local::ZERO;
         let mut longest: [Vec<u32>; CLASSES] = Default::default();
         longest[LONGEST].push(0);
-        let bound = FarFields::default().add(&clusters, &mut longest, &place, accuracy, true, &mut local);
+        let bound =
+            FarFields::default().add(&clusters, &mut longest, &place, accuracy, Some(0.0), &mut local);
         let mut worst: f64 = 0.0;
         for q in queries {
             let offset = (frame.local(q) - place.center) / f64::from(place.radius);

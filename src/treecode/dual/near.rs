@@ -114,8 +114,8 @@ impl Near<'_> {
             2 => multipole.add_at::<F, 2>(block, groups, self.far),
             _ => multipole.add_at::<F, 3>(block, groups, self.far),
         }
-        if self.walk.is_bounded {
-            self.error += self.error_of_multipole(cluster);
+        if let Some(lacking) = self.walk.lacking {
+            self.error += self.error_of_multipole(cluster, f64::from(lacking));
         }
         groups
     }
@@ -129,7 +129,7 @@ impl Near<'_> {
 
     /// A bound of the error of a multipole series for those queries of the block that it acts on.
     #[cold]
-    fn error_of_multipole(&self, cluster: u32) -> f64 {
+    fn error_of_multipole(&self, cluster: u32, lacking: f64) -> f64 {
         let clusters = self.walk.clusters;
         let (series, ball) = (&clusters.series[cluster as usize], &clusters.balls[cluster as usize]);
         let distance = self.place.offset_of(ball).length() as f32;
@@ -138,9 +138,9 @@ impl Near<'_> {
         let [area, spread, radius, closest] =
             [series.area, bounds::spread_of_order(series.spread, order), ball[3], closest].map(f32x4::splat);
         let left_out = bounds::multipole_tail(area, spread, radius, closest, order);
-        let rounding = bounds::largest_field(area, closest - radius);
+        let largest = bounds::largest_field(area, closest - radius);
         let one = |lanes: f32x4| f64::from(lanes.to_array()[0]);
-        one(left_out) + ROUNDING_OF_MULTIPOLE * one(rounding)
+        one(left_out) + (ROUNDING_OF_MULTIPOLE + lacking) * one(largest)
     }
 }
 

@@ -53,7 +53,10 @@ impl DualAccuracy {
 /// A multipole series leaves out up to A S t^(p+1) (p+2 − (p+1)t)/(1−t)² / 4πd² at a distance d = r/t, where A is the
 /// sources' area, r their radius and S a bound of the mean of (|y|/r)^(p+1); a Taylor polynomial the same with its degree for
 /// the order, the block's radius for r and without S.
+///
+/// Bounded points are dipoles only beyond a distance that depends on their extents.
 pub fn reaches(clusters: &Clusters, accuracy: &DualAccuracy) -> Vec<Reach> {
+    let least = accuracy.of_bounded_points().least;
     map_items(clusters.balls.len(), |k| {
         let (series, radius) = (&clusters.series[k], clusters.balls[k][3]);
         let per_error = series.area / (4.0 * PI * accuracy.error) as f32;
@@ -68,6 +71,9 @@ pub fn reaches(clusters: &Clusters, accuracy: &DualAccuracy) -> Vec<Reach> {
             let weighted = area(class) * spread_of_order(series.spread, order);
             let reach = radius / ratio(radius * radius / weighted, order);
             multipole[class] = if weighted > 0.0 { reach.max(NEAREST * radius) } else { NEAREST * radius };
+        }
+        if let Some(extent) = clusters.extents.get(k) {
+            multipole.iter_mut().for_each(|reach| *reach = reach.max(radius + least * extent));
         }
         let taylor = |class: usize| {
             let (_, degree) = accuracy.class(class);

@@ -74,6 +74,11 @@ pub trait Sources: Send + Sync + RefUnwindSafe {
     /// Area times normal.
     fn area_vector(&self, index: usize) -> Vec3;
 
+    /// √a of a bounded point of area a, 0 of what is not bounded: nearer than some times this, its field is not a dipole's.
+    fn extent(&self, _index: usize) -> f64 {
+        0.0
+    }
+
     /// A bound of the rounding error that [`Sources::add`] makes for one source at one query.
     fn rounding(&self) -> f64;
     /// Adds the fields of the sources `near` a block to the `values` at its queries, each with an error of up to `error` and

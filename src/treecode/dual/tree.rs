@@ -60,13 +60,15 @@ impl DualTree {
     ) -> Result<(), Cancelled> {
         const STAGE: &str = "winding numbers";
         let accuracy = accuracy.sane();
+        let lacking =
+            if self.clusters.extents.is_empty() { 0.0 } else { accuracy.of_bounded_points().lacking };
         let walk = Walk {
             clusters: &self.clusters,
             reaches: reaches(&self.clusters, &accuracy),
             sources: &*self.sources,
             targets,
             accuracy,
-            is_bounded: proof == Proof::Bounds,
+            lacking: (proof == Proof::Bounds).then_some(lacking),
         };
         let tasks = targets.tasks();
         for (run, some) in tasks.chunks(TASKS_PER_REPORT).enumerate() {

@@ -20,8 +20,8 @@ pub struct Walk<'a> {
     pub sources: &'a dyn Sources,
     pub targets: &'a dyn Targets,
     pub accuracy: DualAccuracy,
-    /// Whether bounds of errors are asked for.
-    pub is_bounded: bool,
+    /// If bounds of errors are asked for: what sources acting as dipoles lack, a share of the largest field of such sources.
+    pub lacking: Option<f32>,
 }
 
 /// What one task found.
@@ -144,7 +144,7 @@ impl Walk<'_> {
     fn add_far(&self, own: &mut Inherited, space: &mut Space) {
         let Space { far_fields, far, .. } = space;
         own.error +=
-            far_fields.add(self.clusters, far, &own.place, &self.accuracy, self.is_bounded, &mut own.local);
+            far_fields.add(self.clusters, far, &own.place, &self.accuracy, self.lacking, &mut own.local);
         far.iter_mut().for_each(Vec::clear);
     }
 
@@ -183,7 +183,7 @@ impl Walk<'_> {
             let first = values.len() - count;
             (0..count).filter(|i| block.beyond >> i & 1 == 1).for_each(|i| values[first + i] = 0.0);
         }
-        if self.is_bounded { own.error } else { f64::INFINITY }
+        if self.lacking.is_some() { own.error } else { f64::INFINITY }
     }
 }
 

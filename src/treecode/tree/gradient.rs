@@ -29,7 +29,9 @@ impl<K: Kernel> Tree<K> {
             (!is_far & 0b1111, [(); WIDTH])
         };
         let leaf = |node: usize, child: usize, ()| {
-            self.leaf(node, child).iter().for_each(|block| K::add_gradient(&mut near, block, &lanes));
+            self.leaf(node, child)
+                .iter()
+                .for_each(|block| K::add_gradient(&mut near, block, &lanes, self.mode));
         };
         self.bvh.traverse(&mut scratch.single, (), visit, leaf);
         total(near) + self.frame.scale * Vec3::from_array(far.map(sum_of_lanes))
@@ -42,7 +44,7 @@ impl<K: Kernel> Tree<K> {
         }
         let lanes = q.to_array().map(f64x4::splat);
         let mut sum = NOTHING;
-        self.blocks.iter().for_each(|block| K::add_gradient(&mut sum, block, &lanes));
+        self.blocks.iter().for_each(|block| K::add_gradient(&mut sum, block, &lanes, self.mode));
         total(sum)
     }
 }

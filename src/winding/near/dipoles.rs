@@ -1,15 +1,17 @@
 //! Dipoles near a block of queries.
 use super::{GROUP, LANES, single};
-use crate::data::{BLOCK, OrientedCloud};
+use crate::data::BLOCK;
 use crate::math::{Floats, Registers, Vec3, Work, in_widest_registers};
 use crate::treecode::{
     GROUPS, NearLeaf, Octet, QueryBlock, QueryGroup, SourceKind, Sources, parts, relative,
 };
+use crate::winding::bounded::bounded;
+use crate::winding::dipoles::Dipoles;
 use std::f64::consts::PI;
 
-impl Sources for OrientedCloud {
+impl Sources for Dipoles {
     fn len(&self) -> usize {
-        self.points().len()
+        self.cloud.len()
     }
 
     fn kind(&self) -> SourceKind {
@@ -17,11 +19,15 @@ impl Sources for OrientedCloud {
     }
 
     fn corners(&self, index: usize) -> [Vec3; 3] {
-        [self.points()[index]; 3]
+        [self.cloud.points()[index]; 3]
     }
 
     fn area_vector(&self, index: usize) -> Vec3 {
-        self.areas()[index] * self.normals()[index]
+        self.vector(index)
+    }
+
+    fn extent(&self, index: usize) -> f64 {
+        self.extent_of(index)
     }
 
     fn rounding(&self) -> f64 {
@@ -36,38 +42,42 @@ impl Sources for OrientedCloud {
         _error: f32,
         values: &mut [f64; BLOCK],
     ) {
-        in_widest_registers(Dipoles { cloud: self, near, items, queries, values });
+        in_widest_registers(NearDipoles { dipoles: self, near, items, queries, values });
     }
 }
 
 /// The work of [`Sources::add`].
-struct Dipoles<'a> {
-    cloud: &'a OrientedCloud,
+struct NearDipoles<'a> {
+    dipoles: &'a Dipoles,
     near: &'a [NearLeaf],
     items: &'a [u32],
     queries: &'a QueryBlock,
     values: &'a mut [f64; BLOCK],
 }
 
-impl Work for Dipoles<'_> {
+impl Work for NearDipoles<'_> {
     #[inline(always)]
     fn run<R: Registers>(self) {
-        let Dipoles { cloud, near, items, queries, values } = self;
+        let NearDipoles { dipoles, near, items, queries, values } = self;
         let mut sums = [Octet::ZERO; GROUPS];
         for leaf in near {
             for &i in leaf.members(items) {
-                let (point, vector) = (cloud.points()[i as usize], cloud.area_vector(i as usize));
+                let (point, vector) = (dipoles.cloud.points()[i as usize], dipoles.vector(i as usize));
                 let dipole = Dipole::new(point, vector, queries);
                 let least = <R::Singles as Floats>::splat(dipole.least(queries.reach));
                 for group in leaf.groups() {
                     for part in parts::<R::Singles>() {
                         let (mut field, cube) = dipole.field::<R::Singles>(&queries.offsets[group], part);
+                        if dipoles.is_bounded {
+                            field = bounded_field(field);
+                        }
                         let (safe, all) = (cube.greater(least), (1 << R::Singles::COUNT) - 1);
                         if safe != all {
                             let mut fields = Octet::ZERO;
                             fields.put(part, field);
                             let lanes = (!safe & all) << part;
-                            add_precisely([point, vector], queries, (group, lanes), &mut fields, values);
+                            let place = (queries, group, lanes);
+                            add_precisely([point, vector], dipoles.is_bounded, place, &mut fields, values);
                             field = fields.get(part);
                         }
                         sums[group].add(part, field);
@@ -77,6 +87,14 @@ impl Work for Dipoles<'_> {
         }
         add_fields(&sums, values);
     }
+}
+
+/// 4π c(x) of 4πx, as 2x / s(s + 1), s = √(1 + 4|x|): it loses nothing where x is small.
+#[inline(always)]
+fn bounded_field<F: Floats<Number = f32>>(field: F) -> F {
+    let (one, per_turn) = (F::splat(1.0), F::splat(1.0 / std::f32::consts::PI));
+    let root = (one + per_turn * field.abs()).sqrt();
+    (field + field) / (root * (root + one))
 }
 
 /// Adds sums of 4π times winding numbers to values.
@@ -135,8 +153,8 @@ impl Dipole {
 #[inline(never)]
 fn add_precisely(
     [point, vector]: [Vec3; 2],
-    queries: &QueryBlock,
-    (group, lanes): (usize, u32),
+    is_bounded: bool,
+    (queries, group, lanes): (&QueryBlock, usize, u32),
     fields: &mut Octet,
     values: &mut [f64; BLOCK],
 ) {
@@ -147,7 +165,8 @@ fn add_precisely(
         let square = offset.length_squared();
         fields.0[lane] = 0.0;
         if square > 0.0 {
-            values[index] += offset.dot(vector) / (square * square.sqrt() * 4.0 * PI);
+            let winding = offset.dot(vector) / (square * square.sqrt() * 4.0 * PI);
+            values[index] += if is_bounded { bounded(winding) } else { winding };
         }
     }
 }
