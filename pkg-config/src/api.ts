@@ -196,8 +196,11 @@ export interface Shape {
   /** Gives its memory back at once; later calls fail with `Freed`. */
   free(): void;
   [Symbol.dispose](): void;
-  /** Builds the tree ahead of time. */
-  prepare(options?: Accuracy & { leafSize?: number } & CallOptions): Promise<Prepared>;
+  /**
+   * Builds the tree ahead of time. `bounded`, for clouds, for this and all later calls: no point adds more than ½ to the winding
+   * number (*Leaps and Bounds*), which stays smooth right next to noisy points; off unless asked for.
+   */
+  prepare(options?: Accuracy & { leafSize?: number; bounded?: boolean } & CallOptions): Promise<Prepared>;
   /** Winding numbers at `points` (xyzxyz…), one for each. */
   windingNumbers(points: Float32Array | Float64Array, options?: Accuracy & CallOptions): Promise<Float64Array>;
   /** 1 for each of `points` (xyzxyz…) that is inside, else 0. */
@@ -218,6 +221,23 @@ export interface Soup extends Shape {
   geometry(): Promise<{ positions: Float32Array; indices: Uint32Array; origin: Float64Array }>;
   /** Where the surface is open: two ends (xyzxyz) for each of `count` edges. */
   boundaryEdges(): Promise<{ positions: Float32Array; origin: Float64Array; count: number }>;
+  /**
+   * Points with normals and areas of the mesh: its vertices (the default), each with a third of the triangles around it, or the
+   * barycentres of its triangles. What has no area or direction is left out, with a warning.
+   */
+  toCloud(options?: { at?: 'vertices' | 'barycentres' } & CallOptions): Promise<Cloud>;
+}
+
+export interface OrientOptions extends CallOptions {
+  /**
+   * `consistency` (the default) seeks the normals whose winding number is ½ at every point (Lin et al. 2024); `propagation` fits
+   * planes to neighbours and turns one after the other, faster, but thin or sparse parts may come out inverted.
+   */
+  method?: 'consistency' | 'propagation';
+  /** 0 to 5, estimated unless given: higher smooths more. */
+  noiseLevel?: number;
+  /** Sees the normals (xyzxyz…, some may be 0) some times a second while `consistency` lets them settle. */
+  onNormals?: (normals: Float32Array) => void;
 }
 
 /** Points, perhaps with normals and areas. */
@@ -225,12 +245,10 @@ export interface Cloud extends Shape {
   readonly kind: 'cloud';
   readonly hasNormals: boolean;
   readonly hasAreas: boolean;
-  /**
-   * Gives points outward normals, and areas. `consistency` (the default) seeks the normals whose winding number is ½ at every
-   * point (Lin et al. 2024); `propagation` fits planes to neighbours and turns one after the other, faster, but thin or sparse
-   * parts may come out inverted. `noiseLevel`, 0 to 5, is estimated unless given: higher smooths more.
-   */
-  orient(options?: { method?: 'consistency' | 'propagation'; noiseLevel?: number } & CallOptions): Promise<void>;
+  /** Gives points without normals outward ones, and areas. */
+  orient(options?: OrientOptions): Promise<void>;
+  /** Noise around each point, in millimetres: how far it and its neighbours are from a smooth surface, root mean square. */
+  noise(options?: CallOptions): Promise<Float64Array>;
   /** The points as they are; areas in square millimetres. */
   geometry(): Promise<{
     positions: Float32Array;

@@ -1,5 +1,5 @@
 // The page's side: one call at a time goes to the worker, the others wait here, where they can still be withdrawn.
-import type { CallOptions, Info } from './api.js';
+import type { CallOptions, Info, OrientOptions } from './api.js';
 import { WindingError } from './error.js';
 import type { FromWorker, Platform, Port, Ready, Request, StartMessage } from './protocol.js';
 import type { Caller } from './shapes.js';
@@ -11,6 +11,7 @@ interface Task {
   /** Repeats a call for a new worker: its input is kept. */
   isReplay: boolean;
   onProgress: CallOptions['onProgress'];
+  onNormals?: OrientOptions['onNormals'];
   resolve(value: unknown): void;
   reject(error: WindingError): void;
 }
@@ -80,8 +81,8 @@ export class Client implements Caller {
     return Promise.reject(error);
   }
 
-  call(request: Request, options: CallOptions | undefined): Promise<unknown> {
-    const { signal, onProgress } = options ?? {};
+  call(request: Request, options: OrientOptions | undefined): Promise<unknown> {
+    const { signal, onProgress, onNormals } = options ?? {};
     if (request.method === 'free') return this.free(request);
     return new Promise((resolve, reject) => {
       if (this.ended) return reject(this.ended);
@@ -93,6 +94,7 @@ export class Client implements Caller {
         request,
         isReplay: false,
         onProgress,
+        onNormals,
         resolve: (value) => (settle(), resolve(value)),
         reject: (error) => (settle(), reject(error)),
       };
@@ -122,7 +124,7 @@ export class Client implements Caller {
     const { id, request } = task;
     // Without threads an abort costs the worker its shapes: what they were made of stays here.
     const isKept = this.ready.threads === 0;
-    this.port.post({ type: 'call', id, ...request }, isKept ? [] : buffersOf(request.args));
+    this.port.post({ type: 'call', id, watches: task.onNormals !== undefined, ...request }, isKept ? [] : buffersOf(request.args));
   }
 
   /** Tells the running call to stop, or to go on. Answers whether it can be told. */
@@ -172,6 +174,7 @@ export class Client implements Caller {
     const task = this.running;
     if (!task || task.id !== message.id) return;
     if (message.type === 'progress') return task.onProgress?.(message.fraction, message.stage);
+    if (message.type === 'normals') return task.onNormals?.(message.normals);
     this.running = undefined;
     if (message.type === 'error') {
       task.reject(WindingError.from(message.error));

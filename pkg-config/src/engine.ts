@@ -5,6 +5,8 @@ import type { Request } from './protocol.js';
 /** The module that wasm-bindgen makes: the same for both builds as far as it is used here. */
 export type Glue = typeof import('./single/fast_winding.js');
 export type Progress = ((fraction: number, stage: string) => void) | undefined;
+/** Asked without an argument, it says whether it wants to see the normals of now. */
+export type Watcher = ((normals?: Float32Array) => boolean) | undefined;
 
 /** Methods of the engine that make a shape. */
 const MAKERS = { parse: 'parse', soup: 'soup', cloud: 'cloud' } as const;
@@ -28,13 +30,15 @@ export class Engine {
   /** Whether a call estimates normals or areas, which takes the part of the WebAssembly for clouds. */
   needsClouds({ method, handle, args }: Request): boolean {
     if (method === 'parse' || method === 'cloud') return (args.at(-1) as { orient?: string } | undefined)?.orient !== undefined;
+    if (method === 'noise') return true;
     return !WITHOUT_FIELD.includes(method) && (this.handles.get(handle)?.isRaw() ?? false);
   }
 
   /** Runs one call. Throws what the WebAssembly throws. */
-  run(request: Request, progress: Progress): unknown {
+  run(request: Request, progress: Progress, watcher?: Watcher): unknown {
     const { method, handle, args } = request;
     this.job.listen(progress);
+    this.job.watch(watcher);
     if (this.needsClouds(request)) placeClouds();
     if (method in MAKERS) return this.make(MAKERS[method as keyof typeof MAKERS], handle, args);
     if (method === 'exportLayer') return this.glue.exportLayer(...(args as [unknown, string]));

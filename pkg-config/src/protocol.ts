@@ -30,7 +30,8 @@ export interface StartMessage {
   channel: string;
 }
 
-export type ToWorker = StartMessage | ({ type: 'call'; id: number } & Request);
+/** `watches`: whether the caller wants to see normals while they settle. */
+export type ToWorker = StartMessage | ({ type: 'call'; id: number; watches: boolean } & Request);
 
 export interface Ready {
   type: 'ready';
@@ -44,6 +45,7 @@ export interface Ready {
 export type FromWorker =
   | Ready
   | { type: 'progress'; id: number; fraction: number; stage: string }
+  | { type: 'normals'; id: number; normals: Float32Array }
   | { type: 'result'; id: number; value: unknown }
   /** Without an id: the engine did not start. */
   | { type: 'error'; id: number | undefined; error: ErrorData; fatal: boolean };

@@ -12,6 +12,8 @@ import type { FromWorker, Ready, StartMessage, ToWorker } from './protocol.js';
 const MEMORY_MAXIMA = [65536, 32768, 16384, 8192];
 /** Milliseconds between two reports of progress. */
 const PROGRESS_INTERVAL = 30;
+/** Milliseconds between two looks at normals that settle. */
+const LOOK_INTERVAL = 100;
 
 export interface Host {
   post(message: FromWorker, transfer: Transferable[]): void;
@@ -83,6 +85,16 @@ function throttled(host: Host, id: number): (fraction: number, stage: string) =>
   };
 }
 
+function watcher(host: Host, id: number): (normals?: Float32Array) => boolean {
+  let last = -Infinity;
+  return (normals) => {
+    if (!normals) return performance.now() - last >= LOOK_INTERVAL;
+    last = performance.now();
+    host.post({ type: 'normals', id, normals }, [normals.buffer as ArrayBuffer]);
+    return true;
+  };
+}
+
 /** Answers the messages of one client; returns the function to call with each. */
 export function serve(host: Host): (message: ToWorker) => Promise<void> {
   let engine: Engine;
@@ -104,7 +116,7 @@ export function serve(host: Host): (message: ToWorker) => Promise<void> {
     if (message.type === 'start') return begin(message);
     try {
       if (isMissing() && engine.needsClouds(message)) await provide(loadClouds);
-      const value = engine.run(message, throttled(host, message.id));
+      const value = engine.run(message, throttled(host, message.id), message.watches ? watcher(host, message.id) : undefined);
       host.post({ type: 'result', id: message.id, value }, [...buffersOf(value)]);
     } catch (error) {
       fail(message.id, error);

@@ -1,13 +1,13 @@
 // Soups and clouds as the caller holds them. The same classes serve both entries: a caller that posts to a worker
 // answers with promises, one that runs the engine itself with values.
-import type { Accuracy, CallOptions, CloudArrays, Info, Layer, ReadOptions, SoupArrays } from './api.js';
+import type { Accuracy, CallOptions, CloudArrays, Info, Layer, OrientOptions, ReadOptions, SoupArrays } from './api.js';
 import { WindingError } from './error.js';
 import type { Description, Request } from './protocol.js';
 
 /** How calls are made: `R<T>` is a promise of T, or T. */
 export interface Caller {
   readonly info: Info;
-  call(request: Request, options: CallOptions | undefined): unknown;
+  call(request: Request, options: OrientOptions | undefined): unknown;
   /** Applies `f` to an answer of `call`. */
   then(answer: unknown, f: (value: unknown) => unknown): unknown;
   /** Fails the way calls fail. */
@@ -18,7 +18,7 @@ export interface Caller {
 
 /** Options without those that the client itself heeds. */
 function forEngine(options: object | undefined): unknown {
-  const { signal, onProgress, transfer, ...rest } = (options ?? {}) as Record<string, unknown>;
+  const { signal, onProgress, onNormals, transfer, ...rest } = (options ?? {}) as Record<string, unknown>;
   return rest;
 }
 
@@ -118,6 +118,13 @@ class BaseShape {
 }
 
 class SoupShape extends BaseShape {
+  toCloud({ at = 'vertices', ...options }: CallOptions & { at?: string } = {}): unknown {
+    return this.caller.then(this.ask('asCloud', [at], options), (answer) => {
+      const { points, normals, areas, warnings } = answer as Required<CloudArrays> & Pick<Description, 'warnings'>;
+      return make(this.caller, 'cloud', [points, normals, areas, {}], options, warnings);
+    });
+  }
+
   boundaryEdges(): unknown {
     return this.ask('boundaryEdges', []);
   }
@@ -133,25 +140,31 @@ class CloudShape extends BaseShape {
     this.hasAreas = description.hasAreas;
   }
 
-  orient(options?: object): unknown {
+  noise(options?: CallOptions): unknown {
+    return this.ask('noise', [], options);
+  }
+
+  orient(options?: OrientOptions): unknown {
     return this.caller.then(this.ask('orient', [forEngine(options)], options), (description) => {
       Object.assign(this, description);
     });
   }
 }
 
+/** A new shape, about whose making there are `warnings` already. */
+function make(caller: Caller, method: string, args: unknown[], options: object | undefined, warnings: Description['warnings'] = []): unknown {
+  const handle = caller.newHandle();
+  return caller.then(caller.call({ method, handle, args }, options as CallOptions | undefined), (value) => {
+    const description = value as Description;
+    const Shape = description.kind === 'soup' ? SoupShape : CloudShape;
+    return new Shape(caller, handle, { ...description, warnings: [...warnings, ...description.warnings] });
+  });
+}
+
 /** What `init` gives: both entries cast it to their own types. */
 export function facade(caller: Caller): object {
-  const make = (method: string, args: unknown[], options: object | undefined) => {
-    const handle = caller.newHandle();
-    return caller.then(caller.call({ method, handle, args }, options as CallOptions | undefined), (value) => {
-      const description = value as Description;
-      const Shape = description.kind === 'soup' ? SoupShape : CloudShape;
-      return new Shape(caller, handle, description);
-    });
-  };
   const parse = (kind: string | undefined) => (bytes: Uint8Array | ArrayBuffer, options?: ReadOptions & CallOptions) =>
-    make('parse', [asBytes(bytes, options?.transfer), kind, forEngine(options)], options);
+    make(caller, 'parse', [asBytes(bytes, options?.transfer), kind, forEngine(options)], options);
   const dispose = () => caller.dispose();
   return {
     info: caller.info,
@@ -159,13 +172,13 @@ export function facade(caller: Caller): object {
     Soup: {
       parse: parse('soup'),
       from: ({ positions, indices }: SoupArrays, options?: { transfer?: boolean }) =>
-        make('soup', [positions, indices].map((array) => handOver(array, options?.transfer)), options),
+        make(caller, 'soup', [positions, indices].map((array) => handOver(array, options?.transfer)), options),
     },
     Cloud: {
       parse: parse('cloud'),
       from: ({ points, normals, areas }: CloudArrays, options?: { orient?: 'auto'; transfer?: boolean }) => {
         const arrays = [points, normals, areas].map((array) => handOver(array, options?.transfer));
-        return make('cloud', [...arrays, forEngine(options)], options);
+        return make(caller, 'cloud', [...arrays, forEngine(options)], options);
       },
     },
     exportLayer: (layer: Layer, format: string) =>

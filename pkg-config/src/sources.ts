@@ -1,7 +1,9 @@
 import type { Request } from './protocol.js';
 
-/** Calls that change what a shape is, and so must be repeated when it is rebuilt. */
-const CHANGES = new Set(['orient']);
+/** Whether a call changes what a shape is, and so must be repeated when it is rebuilt. */
+const changes = ({ method, args }: Request) =>
+  method === 'orient' || (method === 'prepare' && (args[0] as { bounded?: boolean } | undefined)?.bounded !== undefined);
+
 const MAKERS = new Set(['parse', 'soup', 'cloud']);
 
 function bytesOf(args: unknown[]): number {
@@ -21,7 +23,7 @@ export class Sources {
   note(request: Request): void {
     const { method, handle } = request;
     if (MAKERS.has(method)) this.requests.set(handle, [request]);
-    else if (CHANGES.has(method)) this.requests.get(handle)?.push(request);
+    else if (changes(request)) this.requests.get(handle)?.push(request);
     else if (method === 'free') this.requests.delete(handle);
   }
 

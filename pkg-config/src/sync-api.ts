@@ -4,7 +4,10 @@ import type * as api from './api.js';
 type Plain<T> = T extends (...args: infer A) => Promise<infer R> ? (...args: A) => R : T;
 type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
 
-export interface Soup extends Synchronous<api.Soup> {}
+export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud'> {
+  /** As in the other entry. */
+  toCloud(options?: Parameters<api.Soup['toCloud']>[0]): Cloud;
+}
 export interface Cloud extends Synchronous<api.Cloud> {}
 export type Shape = Soup | Cloud;
 

@@ -1,4 +1,4 @@
-import type { CallOptions, InitOptions } from './api.js';
+import type { InitOptions, OrientOptions } from './api.js';
 import { provide, useMain } from './clouds.js';
 import { Engine } from './engine.js';
 import { WindingError, describeError } from './error.js';
@@ -30,23 +30,33 @@ class Direct implements Caller {
     throw error;
   }
 
-  call(request: Request, options: CallOptions | undefined): unknown {
+  call(request: Request, options: OrientOptions | undefined): unknown {
     if (this.ended) {
       if (request.method === 'free') return undefined;
       throw this.ended;
     }
     let thrown: { error: unknown } | undefined;
-    const { onProgress } = options ?? {};
-    const progress = onProgress && ((fraction: number, stage: string) => {
+    const { onProgress, onNormals } = options ?? {};
+    const noting = <A extends unknown[]>(f: (...args: A) => void, ...args: A) => {
       try {
-        onProgress(fraction, stage);
+        if (!thrown) f(...args);
       } catch (error) {
         thrown = { error };
-        throw error;
       }
+    };
+    // What the caller's functions throw ends the call.
+    const progress = (onProgress ?? onNormals) && ((fraction: number, stage: string) => {
+      if (onProgress) noting(onProgress, fraction, stage);
+      if (thrown) throw thrown.error;
+    });
+    const watcher = onNormals && ((normals?: Float32Array) => {
+      if (normals) noting(onNormals, normals);
+      return true;
     });
     try {
-      return this.engine.run(request, progress);
+      const value = this.engine.run(request, progress, watcher);
+      if (thrown) throw thrown.error;
+      return value;
     } catch (error) {
       if (thrown) throw thrown.error;
       const { error: data, fatal } = describeError(error);

@@ -9,7 +9,7 @@ mod sites;
 mod voronoi;
 
 pub use areas::{AreaMethod, areas, complete_with};
-pub use roughness::{Roughness, roughness};
+pub use roughness::{Roughness, deviations, roughness};
 
 use crate::data::{Cancelled, CloudError, Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
 use crate::math::{Vec3, fit_plane};

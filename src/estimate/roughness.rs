@@ -36,27 +36,59 @@ pub fn roughness(points: &[Vec3], monitor: &dyn Monitor) -> Result<Roughness, Es
     if points.is_empty() {
         return Err(EstimateError::Empty);
     }
-    let sites = Sites::find(points, &[]);
-    let points = &sites.points[..];
-    let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
-    let bvh = Bvh::build(&boxes, LEAF_SIZE);
-    let ordered: Vec<Vec3> = bvh.items().iter().map(|&i| points[i as usize]).collect();
-    let count = points.len().min(LOOKED_AT);
-    let mut found = vec![(0.0, 0.0); count];
-    let of_point = |k: usize, nearest: &mut Nearest| {
-        let place = k * points.len() / count;
-        let near = nearest.find(&bvh, &ordered, place, NEIGHBOURS);
-        let reach = near.last().map_or(0.0, |n| n.0.sqrt());
-        let patch: Vec<Vec3> = near.iter().map(|n| points[n.1 as usize]).collect();
-        ((PI * reach * reach / patch.len() as f64).sqrt(), deviation(&patch, reach))
-    };
-    fill_in_blocks(&mut found, of_point, "neighbours", monitor)?;
+    let found = Patches::new(&Sites::find(points, &[]).points).look_at(LOOKED_AT, monitor)?;
     let median = |mut values: Vec<f64>| {
         values.sort_unstable_by(f64::total_cmp);
         values[values.len() / 2]
     };
     let (spacings, deviations) = found.into_iter().unzip();
     Ok(Roughness { spacing: median(spacings), noise: median(deviations) })
+}
+
+/// Noise around each point of a cloud, in its unit and order: the root mean square of the distances of it and its 15 nearest
+/// neighbours from the quadratic surface that fits them best. Points in one place count as one.
+///
+/// # Errors
+/// If and only if `monitor` cancels.
+pub fn deviations(points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f64>, EstimateError> {
+    let sites = Sites::find(points, &[]);
+    let patches = Patches::new(&sites.points);
+    let found = patches.look_at(sites.points.len(), monitor)?;
+    let mut of_sites = vec![0.0; found.len()];
+    patches.bvh.items().iter().zip(found).for_each(|(site, (_, noise))| of_sites[*site as usize] = noise);
+    Ok(sites.spread(of_sites))
+}
+
+/// Points and their neighbours.
+struct Patches<'a> {
+    points: &'a [Vec3],
+    bvh: Bvh,
+    /// In the order of the tree.
+    ordered: Vec<Vec3>,
+}
+
+impl Patches<'_> {
+    fn new(points: &[Vec3]) -> Patches<'_> {
+        let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
+        let bvh = Bvh::build(&boxes, LEAF_SIZE);
+        let ordered = bvh.items().iter().map(|&i| points[i as usize]).collect();
+        Patches { points, bvh, ordered }
+    }
+
+    /// Spacing and deviation at up to `most` points, evenly chosen, in the order of the tree.
+    fn look_at(&self, most: usize, monitor: &dyn Monitor) -> Result<Vec<(f64, f64)>, EstimateError> {
+        let count = self.points.len().min(most);
+        let mut found = vec![(0.0, 0.0); count];
+        let of_point = |k: usize, nearest: &mut Nearest| {
+            let place = k * self.points.len() / count;
+            let near = nearest.find(&self.bvh, &self.ordered, place, NEIGHBOURS);
+            let reach = near.last().map_or(0.0, |n| n.0.sqrt());
+            let patch: Vec<Vec3> = near.iter().map(|n| self.points[n.1 as usize]).collect();
+            ((PI * reach * reach / patch.len() as f64).sqrt(), deviation(&patch, reach))
+        };
+        fill_in_blocks(&mut found, of_point, "neighbours", monitor)?;
+        Ok(found)
+    }
 }
 
 /// Root mean square of the distances of a point and those nearest to it, which follow, from the quadratic surface, or else the
@@ -105,6 +137,24 @@ mod tests {
             let error = (found.noise - expected).abs();
             assert!(error < 0.1 * expected + 2e-3 * spacing, "{count}: {} for {expected}", found.noise);
         }
+    }
+
+    #[test]
+    fn noise_is_found_where_it_is() {
+        let mut points = sphere(4000, 0.0);
+        let rough = sphere(4000, 0.2);
+        points.iter_mut().zip(rough).filter(|(p, _)| p.z > 0.0).for_each(|(p, q)| *p = q);
+        points.extend_from_within(..100);
+        let found = deviations(&points, &Silent).unwrap();
+        let mean = |wanted: &dyn Fn(f64) -> bool| {
+            let chosen: Vec<f64> =
+                points.iter().zip(&found).filter(|(p, _)| wanted(p.z)).map(|(_, noise)| *noise).collect();
+            chosen.iter().sum::<f64>() / chosen.len() as f64
+        };
+        let (upper, lower) = (mean(&|z| z > 2.0), mean(&|z| z < -2.0));
+        assert!((upper / (0.2 / 3f64.sqrt()) - 1.0).abs() < 0.1 && lower < 2e-3, "{upper} and {lower}");
+        assert_eq!(found[..100], found[4000..]);
+        assert_eq!(deviations(&[], &Silent).unwrap(), []);
     }
 
     #[test]

@@ -96,12 +96,19 @@ fn read_row(tokens: &mut Tokens, first: &[u8], columns: Option<usize>) -> Result
     Ok(Some(row))
 }
 
-/// Whether columns 4 to 6 are colours rather than normals: whole numbers from 0 to 255, not all of them 0 or 1.
+/// Whether columns 4 to 6 are colours rather than normals: whole numbers from 0 to 255, not all of them 0 or 1; or numbers from
+/// 0 to 1 that seldom are the coordinates of a unit vector.
 fn are_colours(columns: &[Vec3]) -> bool {
-    let mut values = columns.iter().flat_map(|c| c.to_array());
+    let values = || columns.iter().flat_map(|c| c.to_array());
     let is_byte = |v: f64| v.fract() == 0.0 && (0.0..=255.0).contains(&v);
-    values.clone().all(is_byte) && values.any(|v| v > 1.0)
+    let are_bytes = values().all(is_byte) && values().any(|v| v > 1.0);
+    let units = columns.iter().filter(|c| (c.length() - 1.0).abs() < UNIT_WITHIN).count();
+    let are_shares = values().all(|v| (0.0..=1.0).contains(&v)) && values().any(|v| v > 0.0);
+    are_bytes || (are_shares && 2 * units < columns.len())
 }
+
+/// How far from 1 the length of a normal may be that was written with few digits.
+const UNIT_WITHIN: f64 = 0.02;
 
 #[cfg(test)]
 mod tests {
@@ -137,7 +144,9 @@ mod tests {
     fn six_columns_are_normals_unless_they_are_colours() {
         let (with_normals, warnings) = cloud("0 0 9 0 0 2\n1 0 9 -3 0 0\n");
         assert_eq!((with_normals.normals(), warnings), (Some(&[Vec3::Z, -Vec3::X][..]), vec![]));
-        for coloured in ["0 0 9 0 128 255\n1 0 9 0 0 0\n", "0 0 9 0.7\n1 0 9 0.1\n"] {
+        for coloured in
+            ["0 0 9 0 128 255\n1 0 9 0 0 0\n", "0 0 9 0.2 0.5 0.4\n1 0 9 1 0 0.3\n", "0 0 9 0.7\n1 0 9 0.1\n"]
+        {
             let (without, warnings) = cloud(coloured);
             assert_eq!((without.len(), without.normals()), (2, None));
             assert_eq!(warnings, [Warning::new(WarningKind::IgnoredColumns, 2)]);

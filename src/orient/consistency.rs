@@ -53,6 +53,16 @@ pub fn consistent_area_vectors(
     config: &ConsistencyConfig,
     monitor: &dyn Monitor,
 ) -> Result<Vec<Vec3>, EstimateError> {
+    watched_area_vectors(points, config, monitor, &|_| ())
+}
+
+/// [`consistent_area_vectors`], which shows them to `watch` after each iteration, in a unit of its own.
+pub(super) fn watched_area_vectors(
+    points: &[Vec3],
+    config: &ConsistencyConfig,
+    monitor: &dyn Monitor,
+    watch: &dyn Fn(&[Vec3]),
+) -> Result<Vec<Vec3>, EstimateError> {
     let bounds = Aabb::around(points.iter().copied());
     let extent = bounds.size().max_element();
     let scale = if extent > 0.0 { 2.0 * HALF / extent } else { 1.0 };
@@ -78,6 +88,7 @@ pub fn consistent_area_vectors(
                 *vector = -vector.length() * inward;
             }
         }
+        watch(&area_vectors);
     }
     area_vectors.iter_mut().for_each(|v| *v /= scale * scale);
     monitor.report(1.0, "normals")?;

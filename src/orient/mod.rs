@@ -8,6 +8,7 @@ pub use schedule::Widths;
 use crate::data::{Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
 use crate::estimate::{self, EstimateConfig, EstimateError};
 use crate::math::Vec3;
+use consistency::watched_area_vectors;
 
 /// How normals are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,12 +32,25 @@ impl Default for OrientMethod {
 /// # Errors
 /// If and only if the cloud is empty, `monitor` cancels, or the cloud has normals, but no areas, and all its points are in one
 /// place.
-// Not part of its caller, which the package for JavaScript loads sooner.
-#[inline(never)]
 pub fn orient(
     cloud: &PointCloud,
     method: &OrientMethod,
     monitor: &dyn Monitor,
+) -> Result<(OrientedCloud, Vec<Warning>), EstimateError> {
+    orient_watched(cloud, method, monitor, &|_| ())
+}
+
+/// [`orient`], which shows vectors along the normals to `watch` while they settle, if the method has such.
+///
+/// # Errors
+/// As [`orient`].
+// Not part of its caller, which the package for JavaScript loads sooner.
+#[inline(never)]
+pub fn orient_watched(
+    cloud: &PointCloud,
+    method: &OrientMethod,
+    monitor: &dyn Monitor,
+    watch: &dyn Fn(&[Vec3]),
 ) -> Result<(OrientedCloud, Vec<Warning>), EstimateError> {
     let config = EstimateConfig::default();
     let points = cloud.points();
@@ -47,7 +61,7 @@ pub fn orient(
         _ => return estimate::orient(cloud, &config, monitor),
     };
     let part = |fraction: f64, stage: &str| monitor.report(0.9 * fraction, stage).is_ok();
-    let area_vectors = consistent_area_vectors(points, consistency, &part)?;
+    let area_vectors = watched_area_vectors(points, consistency, &part, watch)?;
     // Where the field has no slope at all, nothing is better than anything else.
     let normals: Vec<Vec3> = area_vectors.iter().map(|v| v.try_normalize().unwrap_or(Vec3::Z)).collect();
     let rest = |fraction: f64, stage: &str| monitor.report(0.9 + 0.1 * fraction, stage).is_ok();

@@ -10,7 +10,7 @@ use crate::data::{OrientedCloud, PointCloud, Shape, TriangleSoup, Warning};
 use crate::estimate::{self, EstimateConfig};
 use crate::io::{self, Geometry};
 use crate::math::Aabb;
-use crate::orient::{OrientMethod, orient};
+use crate::orient::{OrientMethod, orient_watched};
 use crate::winding::{FieldConfig, WindingField};
 use js_sys::{Object, Reflect, Uint8Array, Uint32Array};
 use std::sync::Arc;
@@ -150,6 +150,18 @@ impl Handle {
         self.describe()
     }
 
+    /// Noise around each point of a cloud, in millimetres.
+    ///
+    /// # Errors
+    /// If and only if this is a soup or the call is aborted.
+    pub fn noise(&self, job: &Job) -> Result<js_sys::Float64Array, JsValue> {
+        let Source::Cloud { given, .. } = &self.source else {
+            return Err(Failure::invalid("a soup has no noise: only clouds have").into());
+        };
+        let found = estimate::deviations(given.points(), job).map_err(Failure::from)?;
+        Ok(numbers_to(&found)?)
+    }
+
     /// The shape as it is: positions, and indices or normals and areas.
     ///
     /// # Errors
@@ -178,6 +190,44 @@ impl Handle {
             }
         }
         Ok(result)
+    }
+
+    /// A soup as points with its own normals and areas: `{ points, normals, areas, warnings }`, of its `vertices` or of the
+    /// `barycentres` of its triangles.
+    ///
+    /// # Errors
+    /// If and only if this is a cloud, `at` is neither, or memory does not suffice.
+    #[wasm_bindgen(js_name = asCloud)]
+    pub fn as_cloud(&self, at: &str) -> Result<Object, JsValue> {
+        let Source::Soup(soup) = &self.source else {
+            return Err(Failure::invalid("this is a cloud already: only soups become clouds").into());
+        };
+        let (cloud, warnings) = match at {
+            "vertices" => soup.vertex_cloud(),
+            "barycentres" => soup.barycentre_cloud(),
+            _ => {
+                let message = format!("at: '{at}': 'vertices' and 'barycentres' are known");
+                return Err(Failure::invalid(message).into());
+            }
+        };
+        if cloud.is_empty() {
+            return Err(Failure::new(
+                "EmptyInput",
+                "no triangle has an area: there is nothing to make points of",
+            )
+            .into());
+        }
+        let flat = |vectors: &[crate::math::Vec3]| {
+            let numbers: Vec<f64> = vectors.iter().flat_map(|v| v.to_array()).collect();
+            numbers_to(&numbers)
+        };
+        let warnings: js_sys::Array = warnings.iter().map(options::warning_to).collect();
+        Ok(object([
+            ("points", flat(cloud.points())?.into()),
+            ("normals", flat(cloud.normals())?.into()),
+            ("areas", numbers_to(cloud.areas())?.into()),
+            ("warnings", warnings.into()),
+        ]))
     }
 
     /// The shape as a file.
@@ -215,7 +265,7 @@ impl Handle {
             ));
         };
         if oriented.is_none() {
-            let (cloud, warnings) = orient(given, method, job)?;
+            let (cloud, warnings) = orient_watched(given, method, job, &|vectors| job.show(vectors))?;
             *oriented = Some(Arc::new(cloud));
             self.warnings.extend(warnings);
         }

@@ -1,5 +1,7 @@
 //! Progress and cancel of the call that runs now.
+use super::convert::vectors_to;
 use crate::data::{Cancelled, Monitor};
+use crate::math::Vec3;
 use js_sys::Function;
 use std::{
     cell::RefCell,
@@ -15,6 +17,7 @@ pub struct Job {
     cancelled: Box<AtomicU32>,
     /// A panic during a call leaves at most an old function here: nothing is half done.
     progress: AssertUnwindSafe<RefCell<Option<Function>>>,
+    watcher: AssertUnwindSafe<RefCell<Option<Function>>>,
 }
 
 #[wasm_bindgen]
@@ -22,7 +25,7 @@ impl Job {
     #[wasm_bindgen(constructor)]
     #[allow(clippy::new_without_default)]
     pub fn new() -> Job {
-        Job { cancelled: Box::default(), progress: AssertUnwindSafe::default() }
+        Job { cancelled: Box::default(), progress: Default::default(), watcher: Default::default() }
     }
 
     /// Byte address of the cancel flag, an aligned 32-bit integer in the memory of this instance.
@@ -35,6 +38,29 @@ impl Job {
     pub fn listen(&self, progress: Option<Function>) {
         self.progress.replace(progress);
     }
+
+    /// Sets the function that sees unit vectors xyzxyz… while they settle, or none. Asked without an argument, it says whether
+    /// it wants to see those of now.
+    #[wasm_bindgen(js_name = watch)]
+    pub fn watch(&self, watcher: Option<Function>) {
+        self.watcher.replace(watcher);
+    }
+}
+
+impl Job {
+    /// Shows the directions of vectors to who watches. Whether that fails is no matter of the call.
+    pub fn show(&self, vectors: &[Vec3]) {
+        if let Some(watcher) = &*self.watcher.borrow()
+            && watcher.call0(&JsValue::NULL).is_ok_and(|wanted| wanted.is_truthy())
+            && let Ok(array) = vectors_to(&directions(vectors), Vec3::ZERO)
+        {
+            let _ = watcher.call1(&JsValue::NULL, &array);
+        }
+    }
+}
+
+fn directions(vectors: &[Vec3]) -> Vec<Vec3> {
+    vectors.iter().map(|v| v.normalize_or_zero()).collect()
 }
 
 impl Monitor for Job {
