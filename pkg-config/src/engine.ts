@@ -1,4 +1,4 @@
-import { placeClouds } from './clouds.js';
+import { placeMore } from './more.js';
 import type { Handle, Job } from './single/fast_winding.js';
 import type { Request } from './protocol.js';
 
@@ -27,10 +27,10 @@ export class Engine {
     return this.glue.version();
   }
 
-  /** Whether a call estimates normals or areas, which takes the part of the WebAssembly for clouds. */
-  needsClouds({ method, handle, args }: Request): boolean {
+  /** Whether a call estimates normals or areas, or makes a surface, which takes the part of the WebAssembly that comes later. */
+  needsMore({ method, handle, args }: Request): boolean {
     if (method === 'parse' || method === 'cloud') return (args.at(-1) as { orient?: string } | undefined)?.orient !== undefined;
-    if (method === 'noise') return true;
+    if (method === 'noise' || method === 'surface') return true;
     return !WITHOUT_FIELD.includes(method) && (this.handles.get(handle)?.isRaw() ?? false);
   }
 
@@ -39,7 +39,7 @@ export class Engine {
     const { method, handle, args } = request;
     this.job.listen(progress);
     this.job.watch(watcher);
-    if (this.needsClouds(request)) placeClouds();
+    if (this.needsMore(request)) placeMore();
     if (method in MAKERS) return this.make(MAKERS[method as keyof typeof MAKERS], handle, args);
     if (method === 'exportLayer') return this.glue.exportLayer(...(args as [unknown, string]));
     if (method === 'free') return this.free(handle);

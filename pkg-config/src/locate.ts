@@ -6,9 +6,9 @@ export function wasmFile(build: Build, wasmUrl: string): string {
   return `${wasmUrl.replace(/\/?$/, '/')}${build}/fast_winding_bg.wasm`;
 }
 
-/** The file beside it that is loaded when clouds need it. */
-export function cloudsFile(build: Build, wasmUrl: string): string {
-  return wasmFile(build, wasmUrl).replace(/[^/]*\.wasm/, 'fast_winding_clouds.wasm');
+/** The file beside it with what is loaded when first needed. */
+export function moreFile(build: Build, wasmUrl: string): string {
+  return wasmFile(build, wasmUrl).replace(/[^/]*\.wasm/, 'fast_winding_more.wasm');
 }
 
 async function fetched(url: string | URL): Promise<Response> {

@@ -7,8 +7,8 @@ export interface PoolMessage {
   memory: WebAssembly.Memory;
   receiver: number;
   channel: string;
-  /** The part of the WebAssembly for clouds, once it is there. */
-  clouds: SharedArrayBuffer;
+  /** The part of the WebAssembly that is loaded when first needed, once it is there. */
+  more: SharedArrayBuffer;
 }
 
 /** Where this module lies when nothing has bundled it. */
@@ -42,14 +42,14 @@ function joined(worker: Worker, message: PoolMessage): Promise<void> {
 
 /**
  * Starts a worker for each thread, then builds the pool. `channel` names the BroadcastChannel on which a worker says that
- * it trapped: the engine, blocked, could not hear it. In `clouds` a worker finds what it did not load at first.
+ * it trapped: the engine, blocked, could not hear it. In `more` a worker finds what was not loaded at first.
  */
-export function poolStarter(channel: string, clouds: SharedArrayBuffer): PoolStarter {
+export function poolStarter(channel: string, more: SharedArrayBuffer): PoolStarter {
   /** Kept so that no browser collects workers which only share memory. */
   const workers: Worker[] = [];
   return async (module, memory, builder) => {
     const receiver = builder.receiver();
-    const message: PoolMessage = { type: 'fast-winding-pool-start', module, memory, receiver, channel, clouds };
+    const message: PoolMessage = { type: 'fast-winding-pool-start', module, memory, receiver, channel, more };
     try {
       for (let thread = 0; thread < builder.numThreads(); thread++) workers.push(newWorker());
       await Promise.all(workers.map((worker) => joined(worker, message)));

@@ -1,9 +1,9 @@
 // The worker's side: starts the engine and answers calls, one at a time. The same in a browser and in Node.
 import { describeError } from './error.js';
-import { isMissing, provide, sharedPart, useMain } from './clouds.js';
+import { isMissing, provide, sharedPart, useMain } from './more.js';
 import { Engine, type Glue } from './engine.js';
 import type { Build } from './locate.js';
-import { cloudsBytes, initialPages } from './threads/memory.js';
+import { moreBytes, initialPages } from './threads/memory.js';
 import { usePoolStarter } from './pool.js';
 import { poolStarter } from './pool-start.js';
 import type { FromWorker, Ready, StartMessage, ToWorker } from './protocol.js';
@@ -19,8 +19,8 @@ export interface Host {
   post(message: FromWorker, transfer: Transferable[]): void;
   /** The WebAssembly of a build, from `wasmUrl` or from beside this module; `undefined` leaves it to wasm-bindgen's code. */
   load(build: Build, wasmUrl: string | undefined): Promise<WebAssembly.Module | undefined>;
-  /** The part that clouds need. */
-  clouds(build: Build, wasmUrl: string | undefined): Promise<ArrayBuffer>;
+  /** The part that is loaded when first needed. */
+  more(build: Build, wasmUrl: string | undefined): Promise<ArrayBuffer>;
 }
 
 function sharedMemory(): WebAssembly.Memory {
@@ -39,9 +39,9 @@ async function startThreads(host: Host, { threads, wasmUrl, channel, reason }: S
   const memory = sharedMemory();
   const module = await host.load('threads', wasmUrl);
   const glue = await import('./threads/fast_winding.js');
-  const clouds = sharedPart(cloudsBytes);
-  useMain(await glue.default({ module_or_path: module!, memory }), clouds);
-  usePoolStarter(poolStarter(channel, clouds));
+  const more = sharedPart(moreBytes);
+  useMain(await glue.default({ module_or_path: module!, memory }), more);
+  usePoolStarter(poolStarter(channel, more));
   await glue.initThreadPool(threads);
   const engine = new Engine(glue as unknown as Glue);
   const cancel = { buffer: memory.buffer as unknown as SharedArrayBuffer, address: engine.job.address() };
@@ -98,13 +98,13 @@ function watcher(host: Host, id: number): (normals?: Float32Array) => boolean {
 /** Answers the messages of one client; returns the function to call with each. */
 export function serve(host: Host): (message: ToWorker) => Promise<void> {
   let engine: Engine;
-  let loadClouds: () => Promise<ArrayBuffer>;
+  let loadMore: () => Promise<ArrayBuffer>;
   const fail = (id: number | undefined, thrown: unknown) => host.post({ type: 'error', id, ...describeError(thrown) }, []);
   const begin = async (message: StartMessage) => {
     try {
       const [started, ready] = await start(host, message);
       engine = started;
-      loadClouds = () => host.clouds(ready.threads > 0 ? 'threads' : 'single', message.wasmUrl);
+      loadMore = () => host.more(ready.threads > 0 ? 'threads' : 'single', message.wasmUrl);
       host.post(ready, []);
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);
@@ -115,7 +115,7 @@ export function serve(host: Host): (message: ToWorker) => Promise<void> {
   return async (message) => {
     if (message.type === 'start') return begin(message);
     try {
-      if (isMissing() && engine.needsClouds(message)) await provide(loadClouds);
+      if (isMissing() && engine.needsMore(message)) await provide(loadMore);
       const value = engine.run(message, throttled(host, message.id), message.watches ? watcher(host, message.id) : undefined);
       host.post({ type: 'result', id: message.id, value }, [...buffersOf(value)]);
     } catch (error) {

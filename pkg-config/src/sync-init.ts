@@ -1,5 +1,5 @@
 import type { InitOptions, OrientOptions } from './api.js';
-import { provide, useMain } from './clouds.js';
+import { provide, useMain } from './more.js';
 import { Engine } from './engine.js';
 import { WindingError, describeError } from './error.js';
 import type { Request } from './protocol.js';
@@ -80,8 +80,8 @@ export type SyncInitOptions = Pick<InitOptions, 'wasmUrl'>;
 export interface SyncPlatform {
   /** `undefined` leaves it to wasm-bindgen's code, which finds it beside itself. */
   load(wasmUrl: string | undefined): Promise<WebAssembly.Module | undefined>;
-  /** The part that clouds need. */
-  clouds(wasmUrl: string | undefined): Promise<ArrayBuffer>;
+  /** The part that some calls need. */
+  more(wasmUrl: string | undefined): Promise<ArrayBuffer>;
 }
 
 /** `init` for a platform. */
@@ -96,11 +96,11 @@ export function syncInitFor(platform: SyncPlatform): (options?: SyncInitOptions)
     const glue = await import('./single/fast_winding.js');
     const url = wasmUrl === undefined ? undefined : String(wasmUrl);
     // Calls answer at once: what some of them need is there before the first.
-    const clouds = platform.clouds(url);
-    clouds.catch(() => {});
+    const more = platform.more(url);
+    more.catch(() => {});
     if (isLoaded) glue.__wbg_reset_state();
     useMain(await glue.default(isLoaded ? undefined : { module_or_path: (await platform.load(url))! }));
-    await provide(() => clouds);
+    await provide(() => more);
     isLoaded = true;
     direct = new Direct(new Engine(glue));
     return facade(direct) as FastWinding;

@@ -1,5 +1,5 @@
 // The engine's worker in a browser.
-import { cloudsFile, fetchBytes, fetchModule, wasmFile } from './locate.js';
+import { moreFile, fetchBytes, fetchModule, wasmFile } from './locate.js';
 import { serve } from './serve.js';
 
 const answer = serve({
@@ -8,7 +8,7 @@ const answer = serve({
     if (wasmUrl) return fetchModule(wasmFile(build, wasmUrl));
     return build === 'threads' ? fetchModule((await import('./threads-wasm.js')).threadsWasm) : undefined;
   },
-  clouds: async (build, wasmUrl) =>
-    fetchBytes(wasmUrl ? cloudsFile(build, wasmUrl) : (await import('./clouds-wasm.js')).cloudsWasm[build]),
+  more: async (build, wasmUrl) =>
+    fetchBytes(wasmUrl ? moreFile(build, wasmUrl) : (await import('./more-wasm.js')).moreWasm[build]),
 });
 self.addEventListener('message', ({ data }) => answer(data));

@@ -60,7 +60,7 @@ function stub(parameters, type, slot, isPlaced, ask) {
 /** The first module, with stubs, a longer table, and the exports the second needs. */
 function mainModule(sections, content, moved, base, needed) {
   const imported = content.functions.length - content.bodies.length;
-  const ask = content.imports.filter(({ kind }) => kind === KIND.function).findIndex((i) => /placeClouds/.test(i.name));
+  const ask = content.imports.filter(({ kind }) => kind === KIND.function).findIndex((i) => /placeMore/.test(i.name));
   if (ask < 0) throw new StepFailed('the module does not import what puts its second part in place');
   const isPlaced = content.globals.length;
   const slots = new Map(moved.map((index, k) => [index, base + k]));

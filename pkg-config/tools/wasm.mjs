@@ -8,9 +8,9 @@ import { StepFailed, run, say } from './run.mjs';
 import { bindgenTools, wasmEnvironment, wasmToolchain } from './rust.mjs';
 import { split } from './split.mjs';
 
-/** The file beside `fast_winding_bg.wasm` with what is loaded when first needed: areas and normals of clouds. */
-export const CLOUDS = 'fast_winding_clouds.wasm';
-const IN_CLOUDS = /fast_winding\[[0-9a-f]+\]::(orient|estimate|treecode::mutual)::/;
+/** The file beside `fast_winding_bg.wasm` with what is loaded when first needed: areas and normals of clouds, surfaces. */
+export const MORE = 'fast_winding_more.wasm';
+const IN_MORE = /fast_winding\[[0-9a-f]+\]::(orient|estimate|surface|levelset::(cubes|cube_cases|bricks)|treecode::mutual)::/;
 
 const RUST_INPUTS = ['Cargo.toml', 'Cargo.lock', 'src', 'pkg-config/tools'];
 /**
@@ -95,12 +95,12 @@ function replacePoolHelpers(folder) {
 
 /**
  * The least size of the shared memory, in pages of 64 KiB, for the client, which makes that memory itself; and how many
- * bytes the part for clouds has, which goes to all threads in shared memory.
+ * bytes the part that is loaded later has, which goes to all threads in shared memory.
  */
 function writeSizes(folder) {
   const pages = readFileSync(join(folder, 'fast_winding.js'), 'utf8').match(/Memory\(\{\s*initial:\s*(\d+)/)?.[1];
   if (!pages) throw new StepFailed(`wasm-bindgen's output in ${folder} does not say how large its memory starts`);
-  const sizes = { initialPages: pages, cloudsBytes: statSync(join(folder, CLOUDS)).size };
+  const sizes = { initialPages: pages, moreBytes: statSync(join(folder, MORE)).size };
   const lines = Object.entries(sizes).map(([name, size]) => `export const ${name} = ${size};\n`);
   writeFileSync(join(folder, 'memory.js'), lines.join(''));
   writeFileSync(join(folder, 'memory.d.ts'), Object.keys(sizes).map((name) => `export declare const ${name}: number;\n`).join(''));
@@ -120,7 +120,7 @@ async function bindAndOptimise(variant) {
   const wasm = join(folder, 'fast_winding_bg.wasm');
   cpSync(wasm, join(wasmTarget(target), `${variant}-with-names.wasm`));
   say(`${variant}: splitting and wasm-opt`);
-  await split(wasm, join(folder, CLOUDS), IN_CLOUDS, optimisation);
+  await split(wasm, join(folder, MORE), IN_MORE, optimisation);
   if (target === 'threads') writeSizes(folder);
   await run('node', [npmTool('binaryen', 'wasm-opt'), ...optimisation, wasm, '-o', wasm]);
 }
@@ -129,7 +129,7 @@ async function bindAndOptimise(variant) {
 export async function buildVariant(variant) {
   const { target, features, command, environment } = VARIANTS[variant];
   const stamp = join(wasmTarget(target), `built-${variant}`);
-  const results = ['fast_winding_bg.wasm', CLOUDS].map((name) => join(wasmOutput(variant), name));
+  const results = ['fast_winding_bg.wasm', MORE].map((name) => join(wasmOutput(variant), name));
   return onceFor(stamp, fingerprint(RUST_INPUTS, [variant]), results, async () => {
     say(`${variant}: compiling the WebAssembly build (some minutes the first time)`);
     await wasmCargo(variant, [...command, ...(features.length ? ['--features', features.join()] : [])], environment);

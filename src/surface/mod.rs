@@ -37,6 +37,8 @@ pub enum SurfaceError {
 ///
 /// # Errors
 /// If and only if the shape is empty, an option is out of range, or the monitor cancels.
+// Not part of its caller, which the package for JavaScript loads sooner.
+#[inline(never)]
 pub fn extract(
     field: &WindingField,
     config: &SurfaceConfig,

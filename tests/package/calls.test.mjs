@@ -81,7 +81,7 @@ for (const [name, start] of Object.entries(entries)) {
     fw.dispose();
   });
 
-  test(`${name}: without the part of the WebAssembly for clouds, only what needs it fails`, async () => {
+  test(`${name}: without the part of the WebAssembly that is loaded later, only what needs it fails`, async () => {
     const folder = mkdtempSync(join(tmpdir(), 'fast-winding-wasm-'));
     for (const build of ['threads', 'single']) {
       const file = `${build}/fast_winding_bg.wasm`;
@@ -93,17 +93,19 @@ for (const [name, start] of Object.entries(entries)) {
     const fails = (action) =>
       assert.rejects(async () => action(), (error) => {
         assert.deepEqual([error.code, error.name], ['LoadFailed', 'WindingError']);
-        assert.match(error.message, /for clouds could not be loaded: .*fast_winding_clouds\.wasm/);
+        assert.match(error.message, /for normals and surfaces could not be loaded: .*fast_winding_more\.wasm/);
         return true;
       });
     await fails(() => cloud.orient());
     await fails(() => cloud.orient());
+    await fails(() => cloud.noise());
     await fails(() => fw.Cloud.from({ points }, { orient: 'auto' }));
     assert.equal((await cloud.geometry()).positions.length, points.length);
     const soup = await fw.Soup.from(box(0, 1));
     assert.deepEqual([...(await soup.contains(new Float64Array([0.5, 0.5, 0.5])))], [1]);
+    await fails(() => soup.surface({ resolution: 4 }));
     if (name === 'worker') {
-      cpSync(join(home, 'dist/threads/fast_winding_clouds.wasm'), join(folder, 'threads/fast_winding_clouds.wasm'));
+      cpSync(join(home, 'dist/threads/fast_winding_more.wasm'), join(folder, 'threads/fast_winding_more.wasm'));
       await cloud.orient();
       assert.ok(cloud.hasNormals, 'it is loaded as soon as it is there');
     }

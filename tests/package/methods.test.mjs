@@ -86,6 +86,15 @@ for (const [name, start] of Object.entries(entries)) {
         assert.deepEqual([again.count, again.bounds], [12, soup.bounds], format);
       }
     });
+    await t.test('a cloud of the same surface', async () => {
+      for (const [at, count] of [[undefined, 8], ['barycentres', 12]]) {
+        const cloud = await soup.toCloud({ at });
+        assert.deepEqual([cloud.kind, cloud.count, cloud.hasNormals, cloud.hasAreas, cloud.warnings], ['cloud', count, true, true, []]);
+        near((await cloud.geometry()).areas.reduce((a, b) => a + b), 600, 1e-9);
+        assert.deepEqual(await cloud.contains(new Float64Array([5, 5, 5, 50, 5, 5])), new Uint8Array([1, 0]));
+      }
+      await assert.rejects(async () => soup.toCloud({ at: 'edges' }), { code: 'InvalidArgument', message: /'vertices' and 'barycentres'/ });
+    });
     await t.test('far from the origin, positions are relative', async () => {
       const far = await fw.Soup.from(box(1e7, 1e7 + 1));
       const { positions, origin } = await far.geometry();
@@ -125,6 +134,42 @@ for (const [name, start] of Object.entries(entries)) {
       near(estimated[0] * normals[0] + estimated[1] * normals[1] + estimated[2] * normals[2], 1, 0.05);
       const auto = await fw.Cloud.from({ points }, { orient: 'auto' });
       assert.equal(auto.hasNormals, true);
+    });
+    await t.test('normals may be watched while they settle, and methods chosen', async () => {
+      const watched = await fw.Cloud.from({ points });
+      const seen = [];
+      await watched.orient({ method: 'consistency', noiseLevel: 1, onNormals: (settling) => seen.push(settling) });
+      assert.ok(seen.length > 0 && seen.every((settling) => settling instanceof Float32Array && settling.length === 6000));
+      const { normals: settled } = await watched.geometry();
+      const good = (found) => found.filter((_, i) => i % 3 === 0 && found[i] * normals[i] + found[i + 1] * normals[i + 1] + found[i + 2] * normals[i + 2] > 0).length;
+      assert.equal(good(settled), 2000);
+      const simple = await fw.Cloud.from({ points });
+      await simple.orient({ method: 'propagation' });
+      assert.equal(good((await simple.geometry()).normals), 2000);
+      const bare = await fw.Cloud.from({ points });
+      await assert.rejects(async () => bare.orient({ method: 'guess' }), { code: 'InvalidArgument', message: /'consistency' and 'propagation'/ });
+      await assert.rejects(async () => bare.orient({ noiseLevel: 6 }), { code: 'InvalidArgument', message: /noiseLevel/ });
+    });
+    await t.test('noise around each point', async () => {
+      const random = (i) => (Math.sin(12.9898 * i) * 43758.5453) % 1;
+      const rough = points.map((x, i) => x + (points[i - (i % 3)] > 0 ? 0.05 * random(i) : 0));
+      const noise = await (await fw.Cloud.from({ points: rough })).noise();
+      const mean = (wanted) => {
+        const chosen = noise.filter((_, i) => wanted(points[3 * i]));
+        return chosen.reduce((a, b) => a + b) / chosen.length;
+      };
+      assert.equal(noise.length, 2000);
+      near(mean((x) => x > 3), 0.05 / Math.sqrt(3), 0.005);
+      assert.ok(mean((x) => x < -3) < 0.005);
+    });
+    await t.test('bounded, no point adds more than a half', async () => {
+      const above = points.slice(0, 3).map((x) => (1 - 1e-6) * x);
+      const [plain] = await cloud.windingNumbers(above);
+      const bounded = await fw.Cloud.from({ points, normals });
+      assert.match((await bounded.prepare({ bounded: true })).method, /bounded/);
+      const [w] = await bounded.windingNumbers(above);
+      assert.ok(plain > 10, `${plain}`);
+      near(w, 1, 0.05);
     });
     await t.test('export, and back', async () => {
       for (const format of ['ply', 'xyz']) {

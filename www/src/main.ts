@@ -9,7 +9,9 @@ import { jobControls, showJob } from './panels/job.ts';
 import { layerPanel } from './panels/layer.ts';
 import { legendPanel } from './panels/legend.ts';
 import { modelControls, showModelFacts } from './panels/model.ts';
+import { halvesButton } from './panels/halves.ts';
 import { planPanel } from './panels/plan.ts';
+import { measureLegend, pointControls } from './panels/points.ts';
 import { problemPanel } from './panels/problem.ts';
 import { showPanel } from './panels/show.ts';
 import { surfacePanel, voxelPanel } from './panels/solid.ts';
@@ -27,6 +29,8 @@ enginePanel(store);
 showModelFacts(store);
 showPanel(store);
 legendPanel(store);
+measureLegend(store);
+halvesButton(store);
 planPanel(store);
 startView();
 await startEngine();
@@ -47,6 +51,7 @@ async function startEngine(): Promise<void> {
   try {
     const page = await startPage(store);
     modelControls(page);
+    pointControls(page);
     layerPanel(page);
     voxelPanel(page);
     surfacePanel(page);

@@ -39,6 +39,12 @@ export interface Plane {
   readonly layerHeight: number;
 }
 
+/** A quantity of each point of a cloud. */
+export interface PointMeasure {
+  readonly quantity: 'area' | 'noise';
+  readonly values: Float64Array;
+}
+
 export interface Job {
   readonly label: string;
   readonly stage: string;
@@ -61,6 +67,12 @@ export interface State {
   cutAway: boolean;
   voxels?: Timed<Voxels>;
   surface?: Timed<Mesh>;
+  /** Normals that are being estimated, as they are now. */
+  settling?: Float32Array;
+  /** What the points are coloured by. */
+  measure?: PointMeasure;
+  /** Whether the model and what was made of it are shown side by side. */
+  halves: boolean;
   visible: Readonly<Record<Item, boolean>>;
   job?: Job;
   problem?: Problem;
@@ -70,6 +82,7 @@ export function initialState(): State {
   return {
     plane: { index: 0, count: 0, layerHeight: 1 },
     heatWanted: false,
+    halves: false,
     cutAway: false,
     visible: { model: true, boundary: true, normals: false, layer: true, voxels: true, surface: true },
   };

@@ -1,6 +1,6 @@
 import { readFile } from 'node:fs/promises';
 import { pathToFileURL } from 'node:url';
-import { type Build, cloudsFile, fetchBytes, wasmFile } from '../locate.js';
+import { type Build, moreFile, fetchBytes, wasmFile } from '../locate.js';
 
 async function bytesOf(url: URL): Promise<ArrayBuffer> {
   return url.protocol === 'file:' ? Uint8Array.from(await readFile(url)).buffer : fetchBytes(url);
@@ -12,8 +12,8 @@ export async function moduleOf(build: Build, wasmUrl: string | undefined): Promi
   return WebAssembly.compile(await bytesOf(wasmUrl ? new URL(wasmFile(build, wasmUrl), pathToFileURL('./')) : beside));
 }
 
-/** The part of it that clouds need. */
-export async function cloudsOf(build: Build, wasmUrl: string | undefined): Promise<ArrayBuffer> {
-  const beside = new URL(`../${build}/fast_winding_clouds.wasm`, import.meta.url);
-  return bytesOf(wasmUrl ? new URL(cloudsFile(build, wasmUrl), pathToFileURL('./')) : beside);
+/** The part of it that is loaded when first needed. */
+export async function moreOf(build: Build, wasmUrl: string | undefined): Promise<ArrayBuffer> {
+  const beside = new URL(`../${build}/fast_winding_more.wasm`, import.meta.url);
+  return bytesOf(wasmUrl ? new URL(moreFile(build, wasmUrl), pathToFileURL('./')) : beside);
 }

@@ -1,7 +1,7 @@
 // The engine's worker in Node: what a browser's worker has, made of node:worker_threads, then the same.
 import { Worker as NodeWorker, parentPort } from 'node:worker_threads';
 import type { ToWorker } from '../protocol.js';
-import { cloudsOf, moduleOf } from './files.js';
+import { moreOf, moduleOf } from './files.js';
 
 /** As much of a browser's Worker as the thread pool uses. */
 class PoolWorker {
@@ -25,6 +25,6 @@ const port = parentPort!;
 const answer = serve({
   post: (message, transfer) => port.postMessage(message, transfer as never),
   load: moduleOf,
-  clouds: cloudsOf,
+  more: moreOf,
 });
 port.on('message', (message: ToWorker) => answer(message));

@@ -50,5 +50,6 @@ function show({ store }: Page, model: Model): void {
     heat: undefined,
     voxels: undefined,
     surface: undefined,
+    measure: undefined,
   });
 }

@@ -1,8 +1,6 @@
-import type { CallOptions } from 'fast-winding';
 import type { Page } from '../page.ts';
 import type { Item } from '../state.ts';
-import { fail } from './fail.ts';
-import { modelOf } from './load.ts';
+import { attempt } from './attempt.ts';
 import { timed } from './timed.ts';
 
 export async function makeVoxels(page: Page, resolution: number, threshold: number): Promise<void> {
@@ -21,27 +19,6 @@ export async function makeSurface(page: Page, resolution: number): Promise<void>
     const surface = await timed(() => shape.surface({ resolution, ...options }));
     store.set({ surface, visible: only(page, 'surface') });
   });
-}
-
-/** Estimates the normals of the cloud that is shown. */
-export async function orient(page: Page): Promise<void> {
-  const { store } = page;
-  const { shape, name, readMilliseconds } = store.state.model!;
-  if (shape.kind !== 'cloud') return;
-  await attempt(page, 'Normals', 'The normals could not be estimated', async (options) => {
-    await shape.orient(options);
-    const model = await modelOf(shape, name, readMilliseconds, options);
-    store.set({ model, visible: { ...store.state.visible, normals: true } });
-  });
-}
-
-async function attempt(page: Page, label: string, failure: string, work: (options: Required<CallOptions>) => Promise<void>): Promise<void> {
-  page.store.set({ problem: undefined });
-  try {
-    await page.jobs.run(label, work);
-  } catch (error) {
-    await fail(page, failure, error);
-  }
 }
 
 /** Of the solid things only `item`: they fill the same space and would hide one another. */

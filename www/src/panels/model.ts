@@ -1,6 +1,5 @@
 import { SAMPLES } from '../../samples/catalogue.ts';
 import { fileSource, open, reopen, sampleSource } from '../actions/open.ts';
-import { orient } from '../actions/solid.ts';
 import { byId, setFacts } from '../dom.ts';
 import { bytes, count, milliseconds, significant } from '../format.ts';
 import type { Page, Unit } from '../page.ts';
@@ -36,7 +35,7 @@ export function showModelFacts(store: Store<State>): void {
   });
 }
 
-/** The menu of samples, the file button, dropping, and estimating normals. */
+/** The menu of samples, the file button, and dropping. */
 export function modelControls(page: Page): void {
   const menu = byId<HTMLSelectElement>('sample');
   menu.replaceChildren(...SAMPLES.map(({ file, title }) => new Option(title, file)));
@@ -73,7 +72,6 @@ export function modelControls(page: Page): void {
     input.value = '';
   });
   acceptDrops((file) => void open(page, fileSource(file)));
-  byId('orient').addEventListener('click', () => void orient(page));
 }
 
 function factsOf({ shape, geometry, bounds, prepared, readMilliseconds, oriented }: Model): [string, string][] {

@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, Color, Points, ShaderMaterial, Vector2 } from 'three';
+import { BufferAttribute, BufferGeometry, Color, Points, ShaderMaterial, SRGBColorSpace, Vector2 } from 'three';
 import type { LineSegments, Plane } from 'three';
 import { token } from '../dom.ts';
 import { thinLines } from './lines.ts';
@@ -20,7 +20,13 @@ const VERTEX = /* glsl */ `
   uniform vec2 depths;
   varying float facing;
   varying float depth;
+  varying vec3 tint;
   void main() {
+    #ifdef USE_COLOR
+      tint = color;
+    #else
+      tint = vec3(0.0);
+    #endif
     vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
     #include <clipping_planes_vertex>
     facing = HAS_NORMALS ? dot(normalize(normalMatrix * normal), normalize(-mvPosition.xyz)) : 0.0;
@@ -40,28 +46,41 @@ const FRAGMENT = /* glsl */ `
   uniform vec3 paper;
   varying float facing;
   varying float depth;
+  varying vec3 tint;
   void main() {
     #include <clipping_planes_fragment>
     float radius = 2.0 * length(gl_PointCoord - 0.5);
     if (radius > 1.0) discard;
     vec3 surface = facing >= GRAZING ? front * (0.35 + 0.75 * max(facing, 0.0)) : back * (0.45 - 0.45 * facing);
     vec3 ball = mix(front * (0.45 + 0.55 * sqrt(1.0 - radius * radius)), paper, 0.6 * depth);
-    gl_FragColor = vec4(HAS_NORMALS ? surface : ball, 1.0);
+    // Round all the same, but not so dark that the scale of colours would not hold.
+    vec3 measured = tint * (0.8 + 0.2 * sqrt(1.0 - radius * radius));
+    gl_FragColor = vec4(HAS_TINTS ? measured : HAS_NORMALS ? surface : ball, 1.0);
     #include <colorspace_fragment>
   }
 `;
 
-/** Round points, shaded by their normals where there are some; those seen from behind have the tint of back faces. */
-export function pointsOf(positions: Float32Array, normals: Float32Array | undefined, diagonal: number, cut: Plane[]): Points {
+/** What is known of points. */
+export interface Cloud {
+  readonly positions: Float32Array;
+  readonly normals?: Float32Array;
+  /** Red, green and blue of each, as the screen shows them. */
+  readonly tints?: Uint8Array;
+}
+
+/** Round points, shaded by their normals where there are some; those seen from behind have the tint of back faces. Their own
+ * tints take the place of both. */
+export function pointsOf({ positions, normals, tints }: Cloud, diagonal: number, cut: Plane[]): Points {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   if (normals) geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+  if (tints) geometry.setAttribute('color', new BufferAttribute(linear(tints), 3));
   geometry.computeBoundingSphere();
   const spacing = diagonal / Math.sqrt(Math.max(1, positions.length / 3));
   const material = new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    defines: { HAS_NORMALS: normals ? 'true' : 'false', GRAZING: String(GRAZING) },
+    defines: { HAS_NORMALS: normals ? 'true' : 'false', HAS_TINTS: tints ? 'true' : 'false', GRAZING: String(GRAZING) },
     uniforms: {
       diameter: { value: spacing * (normals ? COVERING : APART) },
       viewHeight: { value: 1 },
@@ -70,6 +89,7 @@ export function pointsOf(positions: Float32Array, normals: Float32Array | undefi
       back: { value: new Color(token('--view-back')) },
       paper: { value: new Color(token('--paper')) },
     },
+    vertexColors: tints !== undefined,
     clipping: true,
     clippingPlanes: cut,
   });
@@ -82,6 +102,16 @@ export function pointsOf(positions: Float32Array, normals: Float32Array | undefi
     material.uniformsNeedUpdate = true;
   };
   return points;
+}
+
+/** The same colours as the shader computes with them. */
+function linear(tints: Uint8Array): Float32Array {
+  const colour = new Color();
+  const result = new Float32Array(tints.length);
+  for (let i = 0; i < tints.length; i += 3) {
+    colour.setRGB(tints[i] / 255, tints[i + 1] / 255, tints[i + 2] / 255, SRGBColorSpace).toArray(result, i);
+  }
+  return result;
 }
 
 /** A short line along the normal of each point, or of evenly chosen ones when there are very many. */

@@ -1,4 +1,4 @@
-import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { cameraFor } from './framing.ts';
 import type { Box, Direction } from './framing.ts';
@@ -16,6 +16,8 @@ export class Stage {
   readonly #renderer: WebGLRenderer;
   readonly #controls: OrbitControls;
   readonly #beforeDraw: (() => void)[] = [];
+  /** What to show in the left and the right half, if the view is split. */
+  #halves: readonly (() => void)[] = [];
   #box?: Box;
   #isWaiting = false;
 
@@ -38,8 +40,29 @@ export class Stage {
       this.#isWaiting = false;
       this.camera.updateMatrixWorld();
       for (const call of this.#beforeDraw) call();
+      if (this.#halves.length > 0) this.#drawHalves();
+      else this.#renderer.render(this.scene, this.camera);
+    });
+  }
+
+  /** Splits the view: before each half is drawn, its function shows what belongs there. Without functions it is whole again. */
+  split(halves: readonly (() => void)[]): void {
+    this.#halves = halves;
+    this.#resize(this.#renderer.domElement);
+  }
+
+  #drawHalves(): void {
+    const size = this.#renderer.getSize(new Vector2());
+    this.#renderer.setScissorTest(true);
+    this.#halves.forEach((show, k) => {
+      show();
+      const half = [(k * size.x) / 2, 0, size.x / 2, size.y] as const;
+      this.#renderer.setViewport(...half);
+      this.#renderer.setScissor(...half);
       this.#renderer.render(this.scene, this.camera);
     });
+    this.#renderer.setScissorTest(false);
+    this.#renderer.setViewport(0, 0, size.x, size.y);
   }
 
   /** Calls before each drawing, with the camera where it will be. */
@@ -77,7 +100,10 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.#renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.#renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
+    const whole = width / height;
+    this.camera.aspect = whole / Math.max(1, this.#halves.length);
+    // A half shows as much as the whole view does, smaller.
+    this.camera.zoom = Math.min(1, this.camera.aspect / Math.min(1, whole));
     this.camera.updateProjectionMatrix();
     this.draw();
   }

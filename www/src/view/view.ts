@@ -2,6 +2,7 @@ import { Plane, Vector3 } from 'three';
 import type { Mesh as ThreeMesh } from 'three';
 import type { Mesh } from 'fast-winding';
 import { byId } from '../dom.ts';
+import { shadesOf } from '../measure.ts';
 import { significant } from '../format.ts';
 import { diagonal, planeHeight } from '../state.ts';
 import type { Model, State } from '../state.ts';
@@ -60,6 +61,11 @@ export class View {
   #followStore(): void {
     const { state } = this.#store;
     let framed = state.model?.shape;
+    this.#store.on(['settling', 'measure'], () => this.#showModel());
+    this.#store.on(['halves'], ({ halves }) => {
+      this.#stage.split(halves ? [() => this.#showHalf(false), () => this.#showHalf(true)] : []);
+      this.#showVisible();
+    });
     this.#store.on(['model'], ({ model }) => {
       this.#showModel();
       if (!model || model.shape === framed) return;
@@ -74,28 +80,44 @@ export class View {
     this.#store.on(['layer', 'heat'], () => this.#showLayer());
     this.#store.on(['voxels'], ({ voxels }) => this.#showSolid('voxels', voxels?.value.surface));
     this.#store.on(['surface'], ({ surface }) => this.#showSolid('surface', surface?.value));
-    this.#store.on(['visible'], ({ visible }) => {
-      const { model, boundary, normals, pane, heat, contours, voxels, surface } = this.#parts;
-      for (const [part, isVisible] of [
-        [model, visible.model], [boundary, visible.boundary], [normals, visible.normals],
-        [pane, visible.layer], [heat, visible.layer], [contours, visible.layer],
-        [voxels, visible.voxels], [surface, visible.surface],
-      ] as const) part.group.visible = isVisible;
-      this.#stage.draw();
-    });
+    this.#store.on(['visible'], () => this.#showVisible());
+  }
+
+  #showVisible(visible = this.#store.state.visible): void {
+    const { model, boundary, normals, pane, heat, contours, voxels, surface } = this.#parts;
+    for (const [part, isVisible] of [
+      [model, visible.model], [boundary, visible.boundary], [normals, visible.normals],
+      [pane, visible.layer], [heat, visible.layer], [contours, visible.layer],
+      [voxels, visible.voxels], [surface, visible.surface],
+    ] as const) part.group.visible = isVisible;
+    this.#stage.draw();
+  }
+
+  /** Only the model, or only what was made of it: the surface if there is one. */
+  #showHalf(isMade: boolean): void {
+    const { visible, surface } = this.#store.state;
+    const { model, boundary, normals, pane, heat, contours, voxels, surface: surfacePart } = this.#parts;
+    for (const part of [pane, heat, contours]) part.group.visible = false;
+    model.group.visible = !isMade;
+    boundary.group.visible = !isMade && visible.boundary;
+    normals.group.visible = !isMade && visible.normals;
+    surfacePart.group.visible = isMade && surface !== undefined;
+    voxels.group.visible = isMade && surface === undefined;
   }
 
   #showModel(): void {
-    const { model } = this.#store.state;
+    const { model, settling, measure } = this.#store.state;
     if (!model) return;
     const { geometry, bounds } = model;
-    const { positions, indices, normals, boundary, origin } = geometry;
+    const { positions, indices, boundary, origin } = geometry;
+    const normals = settling ?? geometry.normals;
+    const tints = measure && !settling ? shadesOf(measure.values) : undefined;
     const { lines, step } = floorUnder(bounds, origin);
     byId('grid-label').textContent = `grid ${significant(step)} mm`;
     this.#parts.floor.replace(lines);
     const size = diagonal(bounds);
     if (indices) this.#parts.model.replace(...twoSidedMesh({ positions, indices }, '--view-front', this.#cut));
-    else this.#parts.model.replace(pointsOf(positions, normals, size, this.#cut));
+    else this.#parts.model.replace(pointsOf({ positions, normals, tints }, size, this.#cut));
     this.#parts.boundary.replace(...(boundary.length > 0 ? [thickLines(boundary, '--view-edge', BOUNDARY_PIXELS, this.#cut)] : []));
     this.#parts.normals.replace(...(normals ? [normalsOf(positions, normals, size, this.#cut)] : []));
     this.#stage.draw();

@@ -1,5 +1,5 @@
-// What only clouds without normals or areas need is a part of the WebAssembly of its own, loaded when first needed. Each
-// thread has a table of functions of its own, into which it puts that part.
+// What estimates normals and areas of clouds, and what makes surfaces, is a part of the WebAssembly of its own, loaded when
+// first needed. Each thread has a table of functions of its own, into which it puts that part.
 import type { ErrorData } from './error.js';
 
 /** Threads share the part as bytes behind a flag that says that they are there. */
@@ -48,10 +48,10 @@ export async function provide(load: () => Promise<ArrayBuffer>): Promise<void> {
 }
 
 /** Called by the WebAssembly: puts the part's functions in place for this thread. */
-export function placeClouds(): void {
+export function placeMore(): void {
   if (!main || main.isPlaced.value) return;
   if (isMissing()) {
-    const message = `the part of the WebAssembly for clouds could not be loaded: ${failure}`;
+    const message = `the part of the WebAssembly for normals and surfaces could not be loaded: ${failure}`;
     throw { code: 'LoadFailed', message, details: {} } satisfies ErrorData;
   }
   part ??= new WebAssembly.Module(new Uint8Array(shared!, FLAG_BYTES).slice());

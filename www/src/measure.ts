@@ -1,0 +1,47 @@
+/** Colours for a quantity of each point, such as its area: pale where it is small, dark where it is large. */
+
+type Rgb = readonly [number, number, number];
+
+/** Evenly spaced; lightness falls evenly. */
+const STOPS: readonly Rgb[] = [
+  [238, 230, 206],
+  [240, 187, 120],
+  [222, 120, 84],
+  [170, 60, 96],
+  [86, 28, 94],
+];
+
+/** The values between which the colours run. */
+export interface Range {
+  readonly low: number;
+  readonly high: number;
+}
+
+/** Shares of the values that the ends of the range leave beyond them: a few outliers would make all others look the same. */
+const BEYOND = 0.02;
+/** Values looked at to find the range. */
+const LOOKED_AT = 20_000;
+
+export function rangeOf(values: Float64Array): Range {
+  const step = Math.max(1, Math.floor(values.length / LOOKED_AT));
+  const sorted = values.filter((_, i) => i % step === 0).sort();
+  const at = (share: number): number => sorted[Math.round(share * (sorted.length - 1))] ?? 0;
+  const [low, high] = [at(BEYOND), at(1 - BEYOND)];
+  return { low, high: high > low ? high : low + (Math.abs(low) || 1) };
+}
+
+/** Red, green and blue from 0 to 255. */
+export function shadeOf(value: number, { low, high }: Range): Rgb {
+  const place = Math.min(1, Math.max(0, (value - low) / (high - low))) * (STOPS.length - 1);
+  const below = Math.min(STOPS.length - 2, Math.floor(place));
+  const part = place - below;
+  return [0, 1, 2].map((k) => STOPS[below][k] + part * (STOPS[below + 1][k] - STOPS[below][k])) as unknown as Rgb;
+}
+
+/** Colours of all points, as the graphics card takes them. */
+export function shadesOf(values: Float64Array): Uint8Array {
+  const range = rangeOf(values);
+  const shades = new Uint8Array(3 * values.length);
+  values.forEach((value, i) => shades.set(shadeOf(value, range).map(Math.round), 3 * i));
+  return shades;
+}
