@@ -5,13 +5,15 @@
 //! measure values   MODEL --counts N | --points FILE [--tolerance T | --paper]
 //! measure contains MODEL --points FILE                         classify scattered points
 //! measure build    MODEL                                       build only, with memory
+//! measure prepare  MODEL                                       areas and build of a cloud, with memory
 //! measure oracle   MODEL --points FILE                         the direct sum in f64, not timed
 //! ```
 //! `--output FILE` writes the answers of the last repeat: raw f64 for values, a byte of 0 or 1 for classifications, x
 //! fastest. `--repeats` (5) and `--limit` (3 seconds) bound how often a job is repeated after one unmeasured run.
 //! Points are raw little-endian f64; so is a model that ends in `.f64`, a cloud: point, normal and area of each point.
 //! Prints JSON: medians of the times in seconds, bytes of the field, growth of resident memory by the first build.
-use fast_winding::data::{Lattice, OrientedCloud, Shape, Silent};
+use fast_winding::data::{Lattice, OrientedCloud, PointCloud, Shape, Silent};
+use fast_winding::estimate::{self, EstimateConfig};
 use fast_winding::io::{self, Geometry};
 use fast_winding::math::Vec3;
 use fast_winding::solid::{VoxelConfig, voxelize};
@@ -23,10 +25,10 @@ use std::time::Instant;
 fn main() {
     let mut words = std::env::args().skip(1);
     let (job, model) = (words.next().expect("a job"), words.next().expect("a model"));
-    let options = Options::parse(words);
+    let options = Options { estimates: job == "prepare", ..Options::parse(words) };
     let shape = read_shape(&model);
     let answers = match job.as_str() {
-        "build" => measure(&options, &shape, |_| Vec::new()),
+        "build" | "prepare" => measure(&options, &shape, |_| Vec::new()),
         "voxels" => classify_lattice(&options, &shape),
         "values" => evaluate(&options, &shape),
         "contains" => classify_points(&options, &shape),
@@ -74,7 +76,8 @@ fn sum_directly(points: &[Vec3], shape: &Shape) -> Vec<f64> {
 
 /// The field; where scattered points are asked for, with what they need.
 fn build(options: &Options, shape: &Shape) -> WindingField {
-    let field = WindingField::new(shape.clone(), FieldConfig::default());
+    let shape = if options.estimates { with_own_areas(shape) } else { shape.clone() };
+    let field = WindingField::new(shape, FieldConfig::default());
     if options.text("points").is_some() {
         field.prepare_points();
     }
@@ -131,6 +134,8 @@ struct Options {
     words: HashMap<String, String>,
     repeats: usize,
     limit: f64,
+    /// Whether areas are estimated before a field is built.
+    estimates: bool,
 }
 
 impl Options {
@@ -145,7 +150,12 @@ impl Options {
         let number = |name: &str, default: f64| {
             named.get(name).map_or(default, |text| text.parse().expect("a number"))
         };
-        Options { repeats: number("repeats", 5.0) as usize, limit: number("limit", 3.0), words: named }
+        Options {
+            repeats: number("repeats", 5.0) as usize,
+            limit: number("limit", 3.0),
+            words: named,
+            estimates: false,
+        }
     }
 
     fn text(&self, name: &str) -> Option<&str> {
@@ -169,6 +179,14 @@ impl Options {
             None => Accuracy::default(),
         }
     }
+}
+
+/// The cloud with areas estimated anew.
+fn with_own_areas(shape: &Shape) -> Shape {
+    let Shape::Cloud(cloud) = shape else { panic!("only clouds have areas to estimate") };
+    let given = (cloud.points().to_vec(), Some(cloud.normals().to_vec()));
+    let (bare, _) = PointCloud::cleaned(given.0, given.1, None).expect("the cloud is complete");
+    Shape::from(estimate::complete(&bare, &EstimateConfig::default(), &Silent).expect("the points are apart"))
 }
 
 /// Resident memory of this process in bytes: now, and at its highest since the reset. Zero where Linux's /proc is missing.

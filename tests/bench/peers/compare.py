@@ -60,7 +60,7 @@ def main():
                     rows.append(cells)
                     note(verdicts, job, model, *best)
                 print(f"{job.name}, {model}: {time.perf_counter() - started:.0f} s", file=sys.stderr, flush=True)
-            is_build = job.modes == [jobs.BUILD]
+            is_build = job.modes in jobs.BUILDS
             print(f"\n### {job.name}\n\n{table(BUILD_HEADS if is_build else HEADS, rows)}", flush=True)
     summarise(verdicts)
     print(f"\n{load()}")
@@ -118,6 +118,8 @@ class Bench:
             queries = models.lattice(shape, min(job.counts, 24 if job.counts <= 100 else 32) if quick else job.counts)
         elif job.scattered:
             queries = models.scattered(shape, 20_000 if quick else job.scattered)
+        elif job.plane:
+            queries = models.plane(shape, 100 if quick else job.plane)
         if queries:
             queries.points.tofile(self.folder / "queries.f64")
         return shape, queries
@@ -150,7 +152,7 @@ class Bench:
         command = [self.program, mode[0], path, *mode[1:], "--output", output]
         if job.counts:
             command += ["--counts", round(len(queries) ** (1 / 3))]
-        elif job.scattered:
+        elif queries:
             command += ["--points", self.folder / "queries.f64"]
         if self.options.quick:
             command += ["--repeats", 1, "--limit", 1]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 VOXELS = ("voxels",)
 CONTAINS = ("contains",)
 BUILD = ("build",)
+PREPARE = ("prepare",)
 EXACT_ERROR = 1e-12
 
 
@@ -27,6 +28,8 @@ class Job:
     counts: int | None = None
     # Scattered points, or None.
     scattered: int | None = None
+    # Samples on each axis of a plane through the middle, or None.
+    plane: int | None = None
     # The field is built already: only the evaluation counts.
     prepared: bool = False
     # Our RMS has to be no worse than the peer's where a goal is set.
@@ -87,6 +90,15 @@ JOBS = [
         goals={(mode, "point-cloud-utils"): 100 for mode in map(values, CLOUD_TOLERANCES)},
     ),
     Job("cloud, large", ["cloud-knot300k"], [*map(values, CLOUD_TOLERANCES)], CLOUD_PEERS[:1], counts=100, rms=True),
+    # Barill et al. 2018, Fig. 16.
+    Job(
+        "slice of a cloud", ["cloud-knot300k"], [*map(values, CLOUD_TOLERANCES)], CLOUD_PEERS, plane=500, prepared=True, rms=True,
+        goals={(mode, peer): 100 for mode in map(values, CLOUD_TOLERANCES) for peer in CLOUD_PEERS},
+    ),
+    Job(
+        "preparation of a cloud", ["cloud-knot100k"], [PREPARE], ["libigl-areas"],
+        goals={(PREPARE, "libigl-areas"): 20}, memory=0.1,
+    ),
     Job(
         "build", ["bumpy70k"], [BUILD], ["gpytoolbox", "libigl", "open3d"],
         goals={(BUILD, "gpytoolbox"): 3}, memory=0.25,
@@ -96,6 +108,10 @@ JOBS = [
         goals={(BUILD, "gpytoolbox"): 4}, memory=0.25,
     ),
 ]
+
+
+# Modes that answer nothing.
+BUILDS = ([BUILD], [PREPARE])
 
 
 def mode_name(mode):

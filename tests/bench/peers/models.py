@@ -120,6 +120,15 @@ def lattice(model, count):
     return Queries(np.stack([x, y, z], axis=-1).reshape(-1, 3), count * count, f"{count}³")
 
 
+def plane(model, count):
+    """`count` samples on both axes of the plane through the middle of the bounds across z, at cell centres, x fastest."""
+    low, high = model.bounds()
+    x, y = (low[axis] + (high[axis] - low[axis]) * (np.arange(count) + 0.5) / count for axis in range(2))
+    points = np.empty((count, count, 3))
+    points[..., 0], points[..., 1], points[..., 2] = x[None, :], y[:, None], 0.5 * (low[2] + high[2])
+    return Queries(points.reshape(-1, 3), count, f"{count}²")
+
+
 def scattered(model, count):
     """Points spread evenly over the bounds, from a seed."""
     low, high = model.bounds()

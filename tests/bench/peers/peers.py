@@ -69,6 +69,24 @@ class LibiglCloud:
         return self.igl.fast_winding_number(model.points, model.normals, model.areas, points, 2, 2.3)
 
 
+class LibiglAreas:
+    """What libigl's points need before a field: octree, 20 neighbours and areas (of the paper's supplement) by CGAL."""
+
+    evaluate = None
+
+    def __init__(self, model, threads):
+        import igl
+        import igl.copyleft.cgal
+
+        self.igl, self.cgal, self.model = igl, igl.copyleft.cgal, model
+
+    def build(self):
+        points = self.model.points
+        indices, children, centers, widths = self.igl.octree(points)
+        neighbours = self.igl.knn(points, points, 20, indices, children, centers, widths)
+        return self.cgal.point_areas(points, neighbours, self.model.normals)
+
+
 class PointCloudUtils:
     """Triangles or points of point-cloud-utils; builds anew in every call."""
 
@@ -113,6 +131,7 @@ class Open3d:
 PEERS = {
     "gpytoolbox": Gpytoolbox,
     "libigl": Libigl,
+    "libigl-areas": LibiglAreas,
     "libigl-cloud": LibiglCloud,
     "point-cloud-utils": PointCloudUtils,
     "open3d": Open3d,
