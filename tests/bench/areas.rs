@@ -1,14 +1,19 @@
 //! Errors of the areas of points by each method, and of the field made of them, on sampled surfaces (Barill et al. 2018,
-//! Fig. 5): `cargo run --release --example areas -- [POINTS]`.
+//! Fig. 5), and on samples of meshes: `cargo run --release --example areas -- [POINTS] [MODEL...]`.
 use common::surfaces::{
     AreaErrors, Place, SURFACES, Sampling, Surface, area_errors, cloud_of, sample, true_areas,
 };
-use fast_winding::OrientedCloud;
 use fast_winding::data::Silent;
 use fast_winding::estimate::{AreaMethod, EstimateConfig, areas};
-use fast_winding::math::{Aabb, Vec3};
+use fast_winding::io::{self, Geometry};
+use fast_winding::math::{Aabb, Vec3, area_vector};
+use fast_winding::metrics::{NearestPoints, sample_surface};
 use fast_winding::winding::winding_of_cloud;
+use fast_winding::{OrientedCloud, PointCloud};
 use std::time::Instant;
+
+/// Places of a mesh's surface for each sample, which tell how much of it is nearest to that.
+const PLACES: usize = 200;
 
 /// Points of the cloud that is timed.
 const TIMED: usize = 100_000;
@@ -47,11 +52,37 @@ fn main() {
             }
         }
     }
+    std::env::args().skip(2).for_each(|path| of_mesh(&path, count));
     let many = cloud_of(&sample(&SURFACES[0], Sampling::Random, TIMED, 1));
     for method in METHODS {
         let start = Instant::now();
         areas(&many, method, &EstimateConfig::default(), &Silent).expect("the cloud has normals and extent");
         println!("{method:?} of {TIMED} points: {} ms", start.elapsed().as_millis());
+    }
+}
+
+/// Samples of a mesh; the truth is what of its surface is nearest to each, which on thin parts may be some of the other side.
+fn of_mesh(path: &str, count: usize) {
+    let bytes = std::fs::read(path).expect("the model can be read");
+    let Geometry::Soup(soup) = io::read(&bytes).expect("the model is understood").geometry else {
+        panic!("{path} has no triangles")
+    };
+    let samples = sample_surface(&soup, count, 1).expect("the model has an area");
+    let places = sample_surface(&soup, PLACES * count, 2).expect("the model has an area");
+    let whole: f64 = (0..soup.len()).map(|t| area_vector(soup.corners(t)).length()).sum();
+    let mut truth = vec![0.0; count];
+    for (nearest, _) in NearestPoints::new(&samples.points).of(&places.points) {
+        truth[nearest] += whole / places.points.len() as f64;
+    }
+    let cloud =
+        PointCloud::cleaned(samples.points, Some(samples.normals), None).expect("samples are finite").0;
+    for method in METHODS {
+        let found =
+            areas(&cloud, method, &EstimateConfig::default(), &Silent).expect("the cloud has normals");
+        let AreaErrors { median, most, sum } = area_errors(&found, &truth);
+        let [median, most, sum] = [median, most, sum].map(|e| 100.0 * e);
+        let name = std::path::Path::new(path).file_stem().expect("a file").to_string_lossy();
+        println!("| {name} | Random | {method:?} | {median:.2} | {most:.1} | {sum:+.2} | – |");
     }
 }
 
