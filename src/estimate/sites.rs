@@ -31,7 +31,7 @@ impl<'a> Sites<'a> {
     }
 
     /// The value of each point, from those of the places.
-    pub fn spread(&self, values: Vec<Vec3>) -> Vec<Vec3> {
+    pub fn spread<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
         if self.of_points.is_empty() {
             return values;
         }

@@ -1,9 +1,11 @@
 //! Normals of clouds that have none: those that make the winding number consistent with itself.
 mod consistency;
 mod schedule;
+mod stochastic;
 
 pub use consistency::{Bounded, ConsistencyConfig, consistent_area_vectors};
 pub use schedule::Widths;
+pub use stochastic::{StochasticConfig, Weights, stochastic_area_vectors};
 
 use crate::data::{Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
 use crate::estimate::{self, EstimateConfig, EstimateError};
