@@ -16,6 +16,9 @@ use crate::math::Vec3;
 pub enum OrientMethod {
     /// Winding number normal consistency (Lin et al. 2024): all points at once.
     Consistency(ConsistencyConfig),
+    /// Stochastic globally consistent normal orientation (the sGCNO of *Leaps and Bounds*): winding numbers that are 0 or 1.
+    /// Some twenty times slower.
+    Stochastic(StochasticConfig),
     /// Planes fitted to neighbours, oriented along a minimum spanning tree (Hoppe et al. 1992): a few times faster, but one
     /// wrong edge inverts all that hangs on it.
     Propagation,
@@ -40,14 +43,15 @@ pub fn orient(
 ) -> Result<(OrientedCloud, Vec<Warning>), EstimateError> {
     let config = EstimateConfig::default();
     let points = cloud.points();
-    let consistency = match method {
-        OrientMethod::Consistency(consistency) if cloud.normals().is_none() && !estimate::is_flat(points) => {
-            consistency
-        }
-        _ => return estimate::orient(cloud, &config, monitor),
-    };
+    if cloud.normals().is_some() || *method == OrientMethod::Propagation || estimate::is_flat(points) {
+        return estimate::orient(cloud, &config, monitor);
+    }
     let part = |fraction: f64, stage: &str| monitor.report(0.9 * fraction, stage).is_ok();
-    let area_vectors = consistent_area_vectors(points, consistency, &part)?;
+    let area_vectors = match method {
+        OrientMethod::Stochastic(stochastic) => stochastic_area_vectors(points, stochastic, &part)?,
+        OrientMethod::Consistency(consistency) => consistent_area_vectors(points, consistency, &part)?,
+        OrientMethod::Propagation => vec![],
+    };
     // Where the field has no slope at all, nothing is better than anything else.
     let normals: Vec<Vec3> = area_vectors.iter().map(|v| v.try_normalize().unwrap_or(Vec3::Z)).collect();
     let rest = |fraction: f64, stage: &str| monitor.report(0.9 + 0.1 * fraction, stage).is_ok();

@@ -1,7 +1,7 @@
 //! Normals of unoriented clouds beside the truth: samples of meshes, clean, uneven, noisy and with parts missing.
 //!
 //! ```text
-//! normals MODEL... [--points N]
+//! normals MODEL... [--points N] [--only METHOD]
 //! ```
 //! For each kind of cloud, the means over the models of the percentage of good points (PGP) and of the root mean square
 //! angle, and the mean time.
@@ -9,8 +9,14 @@ use fast_winding::data::{PointCloud, Silent, TriangleSoup};
 use fast_winding::io::{self, Geometry};
 use fast_winding::math::{Aabb, Vec3};
 use fast_winding::metrics::{SurfaceSamples, angle_rmse, good_points, sample_surface};
-use fast_winding::orient::{Bounded, ConsistencyConfig, OrientMethod, Widths, orient};
+use fast_winding::orient::{Bounded, ConsistencyConfig, OrientMethod, StochasticConfig, Widths, orient};
 use std::time::Instant;
+
+mod gcno;
+mod lbfgs;
+mod voronoi;
+
+use gcno::gcno;
 
 /// Standard deviations along each axis, in longest edges of the box.
 const NOISES: [f64; 3] = [0.0025, 0.005, 0.01];
@@ -20,25 +26,30 @@ const HOLES: (usize, f64) = (10, 0.07);
 fn main() {
     let mut words = std::env::args().skip(1);
     let (mut count, mut soups) = (40_000, Vec::new());
+    let mut only: Option<String> = None;
     while let Some(word) = words.next() {
         match word.as_str() {
+            "--only" => only = words.next(),
             "--points" => count = words.next().and_then(|n| n.parse().ok()).expect("a number of points"),
             path => soups.push(read(path)),
         }
     }
     println!("| cloud | method | PGP | angle RMSE | time |\n|---|---|---:|---:|---:|");
     for (kind, distort) in kinds() {
-        for (name, method) in methods() {
+        for (name, method) in methods(count) {
+            if only.as_ref().is_some_and(|only| !name.contains(only)) {
+                continue;
+            }
             let mut sums = [0.0; 3];
             for soup in &soups {
                 let samples = distort(soup, count);
                 let (cloud, _) =
                     PointCloud::cleaned(samples.points, None, None).expect("the points are finite");
                 let start = Instant::now();
-                let (oriented, _) = orient(&cloud, &method, &Silent).expect("there are points");
+                let normals = method(&cloud);
                 sums[2] += start.elapsed().as_secs_f64();
-                sums[0] += good_points(oriented.normals(), &samples.normals).expect("as many");
-                sums[1] += angle_rmse(oriented.normals(), &samples.normals).expect("as many");
+                sums[0] += good_points(&normals, &samples.normals).expect("as many");
+                sums[1] += angle_rmse(&normals, &samples.normals).expect("as many");
             }
             let [pgp, angle, time] = sums.map(|s| s / soups.len() as f64);
             println!("| {kind} | {name} | {:.2} % | {angle:.1}° | {time:.2} s |", 100.0 * pgp);
@@ -46,11 +57,22 @@ fn main() {
     }
 }
 
-fn methods() -> Vec<(String, OrientMethod)> {
-    let consistency = |bounded: Bounded, widths: Option<Widths>| {
-        OrientMethod::Consistency(ConsistencyConfig { bounded, widths, ..Default::default() })
+type Method = Box<dyn Fn(&PointCloud) -> Vec<Vec3>>;
+
+/// Most points that the globally consistent methods take.
+const MOST: usize = 3000;
+
+fn methods(count: usize) -> Vec<(String, Method)> {
+    let by = |method: OrientMethod| -> Method {
+        Box::new(move |cloud| {
+            let (oriented, _) = orient(cloud, &method, &Silent).expect("there are points");
+            oriented.normals().to_vec()
+        })
     };
-    let mut methods = vec![("propagation".into(), OrientMethod::Propagation)];
+    let consistency = |bounded: Bounded, widths: Option<Widths>| {
+        by(OrientMethod::Consistency(ConsistencyConfig { bounded, widths, ..Default::default() }))
+    };
+    let mut methods = vec![("propagation".into(), by(OrientMethod::Propagation))];
     for (name, bounded) in [
         ("{SD, A, G}", Bounded::Nothing),
         ("{SD, A, G_B}", Bounded::Gradients),
@@ -60,6 +82,14 @@ fn methods() -> Vec<(String, OrientMethod)> {
             methods.push((format!("{name} l{k}"), consistency(bounded, Some(widths))));
         }
         methods.push((format!("{name} chosen"), consistency(bounded, None)));
+    }
+    if count <= MOST {
+        methods.push(("sGCNO".into(), by(OrientMethod::Stochastic(StochasticConfig::default()))));
+        let draw = |cloud: &PointCloud| {
+            let mut random = Random(11);
+            gcno(cloud.points(), || random.unit())
+        };
+        methods.push(("GCNO".into(), Box::new(draw)));
     }
     methods
 }
