@@ -1,5 +1,6 @@
 //! Places around some of the points, drawn anew for each step.
 use super::StochasticConfig;
+use super::problem::Problem;
 use crate::math::Vec3;
 use std::f64::consts::TAU;
 
@@ -62,38 +63,73 @@ impl Deck {
     }
 }
 
-/// The samples of one step: `fine` of the first point, of the second …, then `coarse` likewise, then the points themselves.
+/// The samples of one step: fine ones of the first point, of the second …, then coarse ones likewise, then the points
+/// themselves.
 pub struct Samples {
-    pub points: Vec<u32>,
+    /// The points that samples are around.
+    pub numbers: Vec<u32>,
+    /// Fine samples of each.
     pub fine: usize,
-    pub coarse: usize,
+    coarse: usize,
     pub places: Vec<Vec3>,
 }
 
 impl Samples {
-    /// Samples of the points with these numbers; `spacings` are the standard deviations of fine ones.
     pub fn around(
         numbers: &[u32],
-        points: &[Vec3],
-        spacings: &[f64],
+        problem: &Problem,
         config: &StochasticConfig,
         random: &mut Random,
     ) -> Samples {
         let (fine, coarse) = (config.fine.max(2), config.coarse.max(1));
+        let point = |i: &u32| problem.points[*i as usize];
         let mut places = Vec::with_capacity(numbers.len() * (fine + coarse + 1));
         for i in numbers {
-            let (point, width) = (points[*i as usize], spacings[*i as usize]);
-            places.extend((0..fine).map(|_| point + width * random.normal()));
+            let spacing = problem.spacings[*i as usize];
+            places.extend((0..fine).map(|_| point(i) + spacing * random.normal()));
         }
         for i in numbers {
-            places.extend((0..coarse).map(|_| points[*i as usize] + COARSE * random.normal()));
+            places.extend((0..coarse).map(|_| point(i) + COARSE * random.normal()));
         }
-        places.extend(numbers.iter().map(|i| points[*i as usize]));
-        Samples { points: numbers.to_vec(), fine, coarse, places }
+        places.extend(numbers.iter().map(point));
+        Samples { numbers: numbers.to_vec(), fine, coarse, places }
     }
 
-    /// Number of fine samples: the first of all places.
+    /// Number of fine samples.
     pub fn all_fine(&self) -> usize {
-        self.points.len() * self.fine
+        self.numbers.len() * self.fine
+    }
+
+    /// Number of coarse samples.
+    pub fn all_coarse(&self) -> usize {
+        self.numbers.len() * self.coarse
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normal_numbers_have_mean_0_and_variance_1() {
+        let mut random = Random(3);
+        let drawn: Vec<Vec3> = (0..20_000).map(|_| random.normal()).collect();
+        let mean = drawn.iter().sum::<Vec3>() / 20_000.0;
+        let variance = drawn.iter().map(|v| *v * *v).sum::<Vec3>() / 20_000.0;
+        // Four standard deviations of these: 1/√20,000 and √2 times that.
+        assert!(mean.abs().max_element() < 0.028, "{mean}");
+        assert!((variance - 1.0).abs().max_element() < 0.04, "{variance}");
+    }
+
+    #[test]
+    fn every_point_has_its_turn() {
+        let (mut deck, mut random) = (Deck::new(10), Random(1));
+        for _ in 0..5 {
+            let mut dealt = [deck.deal(5, &mut random).to_vec(), deck.deal(5, &mut random).to_vec()].concat();
+            dealt.sort_unstable();
+            assert_eq!(dealt, (0..10).collect::<Vec<u32>>());
+        }
+        assert_eq!(deck.deal(50, &mut random).len(), 10);
+        assert!(Deck::new(0).deal(3, &mut random).is_empty());
     }
 }

@@ -300,6 +300,34 @@ mod tests {
     }
 
     #[test]
+    fn sums_between_two_clouds_are_those_of_all_pairs() {
+        let (points, dipoles, _) = sample(1200);
+        let targets: Vec<Vec3> = sample(700).0.iter().map(|p| 1.07 * p.yzx()).collect();
+        let charges: Vec<f64> = (0..700).map(|i| (1.7 * f64::from(i)).sin()).collect();
+        let [sources, places] = [&points, &targets].map(|points| Arc::new(Clustered::new(points)));
+        let (down, up) = (Mutual::between(&sources, &places, 5.0), Mutual::between(&places, &sources, 5.0));
+        assert_eq!((down.len(), up.len()), (700, 1200));
+        let cube = |offset: Vec3| offset / offset.length().powi(3);
+        let potential = |q: &Vec3| points.iter().zip(&dipoles).map(|(p, d)| cube(*p - *q).dot(*d)).sum::<f64>();
+        let expected: Vec<f64> = targets.iter().map(potential).collect();
+        let error = rms(down.potentials(&dipoles, 1e-6).iter().zip(&expected).map(|(a, b)| a - b));
+        assert!(error < 5e-3 * rms(expected.iter().copied()), "{error}");
+        let field = |p: &Vec3| targets.iter().zip(&charges).map(|(q, c)| *c * cube(*p - *q)).sum::<Vec3>();
+        let expected: Vec<Vec3> = points.iter().map(field).collect();
+        let error = rms(up.fields(&charges, 1e-6).iter().zip(&expected).map(|(a, b)| a.distance(*b)));
+        assert!(error < 5e-3 * rms(expected.iter().map(|v| v.length())), "{error}");
+        // What bounds a point are the dipoles of the targets here, of the sources there.
+        let (down, up) = (Mutual::between(&sources, &places, 1e9), Mutual::between(&places, &sources, 1e9));
+        let step: Vec<Vec3> = dipoles.iter().map(|d| d.zxy()).collect();
+        let change = down.bounded_change(&dipoles, &step, 1e-6);
+        let fields = up.bounded_fields(&dipoles, &charges, 1e-6);
+        let left: f64 = change.iter().zip(&charges).map(|(a, b)| a * b).sum();
+        let right: f64 = fields.iter().zip(&step).map(|(a, b)| a.dot(*b)).sum();
+        let size: f64 = change.iter().zip(&charges).map(|(a, b)| (a * b).abs()).sum();
+        assert!((left - right).abs() < 1e-5 * size, "{left} and {right}");
+    }
+
+    #[test]
     fn bounded_potentials_change_as_their_derivative_says() {
         let (points, dipoles, charges) = sample(1500);
         // Strong ones, so that the bound matters.
