@@ -11,7 +11,7 @@ mod voronoi;
 
 pub use areas::{AreaMethod, areas, complete_with};
 pub use roughness::{Roughness, roughness};
-pub use spacing::spacings;
+pub use spacing::{Spacings, spacings};
 
 use crate::data::{Cancelled, CloudError, Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
 use crate::math::{Vec3, fit_plane};

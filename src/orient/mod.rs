@@ -43,15 +43,14 @@ pub fn orient(
 ) -> Result<(OrientedCloud, Vec<Warning>), EstimateError> {
     let config = EstimateConfig::default();
     let points = cloud.points();
-    if cloud.normals().is_some() || *method == OrientMethod::Propagation || estimate::is_flat(points) {
-        return estimate::orient(cloud, &config, monitor);
-    }
     let part = |fraction: f64, stage: &str| monitor.report(0.9 * fraction, stage).is_ok();
     let area_vectors = match method {
-        OrientMethod::Stochastic(stochastic) => stochastic_area_vectors(points, stochastic, &part)?,
-        OrientMethod::Consistency(consistency) => consistent_area_vectors(points, consistency, &part)?,
-        OrientMethod::Propagation => vec![],
+        _ if cloud.normals().is_some() || estimate::is_flat(points) => None,
+        OrientMethod::Consistency(consistency) => Some(consistent_area_vectors(points, consistency, &part)?),
+        OrientMethod::Stochastic(stochastic) => Some(stochastic_area_vectors(points, stochastic, &part)?),
+        OrientMethod::Propagation => None,
     };
+    let Some(area_vectors) = area_vectors else { return estimate::orient(cloud, &config, monitor) };
     // Where the field has no slope at all, nothing is better than anything else.
     let normals: Vec<Vec3> = area_vectors.iter().map(|v| v.try_normalize().unwrap_or(Vec3::Z)).collect();
     let rest = |fraction: f64, stage: &str| monitor.report(0.9 + 0.1 * fraction, stage).is_ok();

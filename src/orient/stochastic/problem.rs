@@ -2,8 +2,8 @@ use super::Weights;
 use super::losses::{Found, losses};
 use super::parameters::{Parameters, Triple};
 use super::samples::Samples;
-use crate::data::{Monitor, PointCloud};
-use crate::estimate::{AreaMethod, EstimateConfig, EstimateError, areas, spacings};
+use crate::data::Monitor;
+use crate::estimate::{EstimateError, Spacings, spacings};
 use crate::math::Vec3;
 use crate::treecode::{Clustered, Mutual};
 use std::f64::consts::PI;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 const OPENING: f64 = 2.0;
 /// What is nearer does not act, so that the winding number is defined at the points themselves.
 const WIDTH: f64 = 1e-6;
-/// So many nearest neighbours tell how far fine samples spread.
+/// So many nearest neighbours tell how far fine samples spread, and areas.
 const NEIGHBOURS: usize = 4;
 
 /// What stays the same from step to step.
@@ -29,12 +29,12 @@ impl Problem {
     /// For points in [−1, 1]³; with their areas.
     pub fn new(points: Vec<Vec3>, monitor: &dyn Monitor) -> Result<(Problem, Vec<f64>), EstimateError> {
         let at_start = |_: f64, stage: &str| monitor.report(0.0, stage).is_ok();
-        let spacings = spacings(&points, NEIGHBOURS, &at_start)?;
-        let (cloud, _) = PointCloud::cleaned(points.clone(), None, None)?;
-        let config = EstimateConfig { neighbours: NEIGHBOURS };
-        let areas = areas(&cloud, AreaMethod::NearestNeighbour, &config, &at_start)?;
+        let Spacings { means, areas } = spacings(&points, NEIGHBOURS, &at_start)?;
+        if areas.iter().all(|a| *a == 0.0) {
+            return Err(EstimateError::OnePlace { points: points.len() });
+        }
         let clustered = Arc::new(Clustered::new(&points));
-        Ok((Problem { points, spacings, clustered, opening: OPENING }, areas))
+        Ok((Problem { points, spacings: means, clustered, opening: OPENING }, areas))
     }
 
     /// The loss at some samples, and its slopes along the parameters of all points.
