@@ -28,7 +28,8 @@ const WELLS: [(f64, f64); 2] = [(8.0, 0.41), (8.0, 0.5)];
 pub fn losses(samples: &Samples, found: &Found, weights: &Weights) -> Losses {
     let count = samples.numbers.len() as f64;
     let (fine, coarse) = (samples.all_fine(), samples.all_coarse());
-    let mut losses = Losses { sum: 0.0, along_winding: vec![0.0; found.winding.len()], along_normals: vec![] };
+    let mut losses =
+        Losses { sum: 0.0, along_winding: vec![0.0; found.winding.len()], along_normals: vec![] };
     let terms = found.winding.iter().zip(&mut losses.along_winding);
     for (k, (w, along)) in terms.enumerate() {
         let (weight, (value, slope)) = if k < fine + coarse {
@@ -39,7 +40,9 @@ pub fn losses(samples: &Samples, found: &Found, weights: &Weights) -> Losses {
         losses.sum += weight / count * value;
         *along = weight / count * slope;
     }
-    for (own, along) in found.winding[..fine].chunks(samples.fine).zip(losses.along_winding.chunks_mut(samples.fine)) {
+    for (own, along) in
+        found.winding[..fine].chunks(samples.fine).zip(losses.along_winding.chunks_mut(samples.fine))
+    {
         losses.sum += balance(own, along, weights, count);
     }
     for (gradients, normal) in found.gradients[..fine].chunks(samples.fine).zip(&found.normals) {

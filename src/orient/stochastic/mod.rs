@@ -15,7 +15,10 @@ use problem::Problem;
 use samples::{Deck, Random, Samples};
 
 /// How many steps there are, how long, on how many samples and for which sum of losses. The paper gives none of these numbers:
-/// the defaults were chosen on 3,000 points of six models, clean and noisy.
+/// the defaults were chosen on 3,000 points each of six models (bunny, dragon, knot, bumpy ball, teapot, a CAD part) without
+/// noise and of four with noise of 0.5 % of the box. Little depends on them: 300 steps or 1,500, first steps from 0.05 to 0.2,
+/// one to four coarse samples and four to sixteen fine ones changed the share of good points by less than half a percent on
+/// average.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StochasticConfig {
     /// Steps of Adam.
@@ -36,7 +39,9 @@ pub struct StochasticConfig {
     pub seed: u64,
 }
 
-/// How much each loss counts.
+/// How much each loss counts. Of 0.3, 1, 3 and 10, in units of [`Weights::zero_or_one`], these were best all together. More of
+/// mean and variance and of area is better for noisy clouds; more of surface is better for thin parts of clean ones, where 2
+/// finds one more point in a hundred of the CAD part, but adds 4° to the angles of noisy clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights {
     /// That winding numbers are 0 or 1, eq. 64.
@@ -71,7 +76,7 @@ impl Default for StochasticConfig {
 
 impl Default for Weights {
     fn default() -> Self {
-        Weights { zero_or_one: 1.0, mean: 1.0, variance: 1.0, alignment: 1.0, surface: 1.0, area: 1.0 }
+        Weights { zero_or_one: 1.0, mean: 3.0, variance: 3.0, alignment: 1.0, surface: 1.0, area: 3.0 }
     }
 }
 
@@ -79,7 +84,9 @@ impl Default for Weights {
 /// consistent normal orientation: from normals at random, Adam (Kingma and Ba 2015) makes the bounded winding number 0 or 1 at
 /// samples around some of the points, others in each step.
 ///
-/// An area is between a quarter and 1,000 times that of the circle that reaches to the nearest other place with a point.
+/// An area is between a quarter and 1,000 times a quarter of that of the circle which reaches to the fourth nearest other
+/// place. The paper's circle to the nearest one adds up to 3.6 times the surface where points lie in a hexagonal grid, and then
+/// one or the other of two losses cannot vanish: that areas stay, or that winding numbers are 0 or 1.
 ///
 /// # Errors
 /// If and only if there are no points, all are in one place or `monitor` cancels.

@@ -160,7 +160,8 @@ impl Mutual {
         };
         let bases = targets.blocks.grouped(&of_targets);
         let single = |v: Vec3| v.to_array().map(|x| x as f32);
-        let of_point = |k: usize| (Vec3::from_array(sources.places[k].map(f64::from)), sum.moments(sorted[k]));
+        let of_point =
+            |k: usize| (Vec3::from_array(sources.places[k].map(f64::from)), sum.moments(sorted[k]));
         let series = sources.clusters.series(&of_point);
         let record = |k: usize| Record {
             place: sources.places[k],
@@ -308,7 +309,8 @@ mod tests {
         let (down, up) = (Mutual::between(&sources, &places, 5.0), Mutual::between(&places, &sources, 5.0));
         assert_eq!((down.len(), up.len()), (700, 1200));
         let cube = |offset: Vec3| offset / offset.length().powi(3);
-        let potential = |q: &Vec3| points.iter().zip(&dipoles).map(|(p, d)| cube(*p - *q).dot(*d)).sum::<f64>();
+        let potential =
+            |q: &Vec3| points.iter().zip(&dipoles).map(|(p, d)| cube(*p - *q).dot(*d)).sum::<f64>();
         let expected: Vec<f64> = targets.iter().map(potential).collect();
         let error = rms(down.potentials(&dipoles, 1e-6).iter().zip(&expected).map(|(a, b)| a - b));
         assert!(error < 5e-3 * rms(expected.iter().copied()), "{error}");

@@ -21,7 +21,9 @@ pub fn minimise(x: &mut Vec<f64>, f: &dyn Fn(&[f64]) -> (f64, Vec<f64>), steps: 
             direction = newton(&known, &slope);
         }
         let first = if known.is_empty() { 1.0 / dot(&slope, &slope).sqrt() } else { 1.0 };
-        let Some((next, next_value, next_slope)) = search(x, &direction, (value, &slope), first, f) else { break };
+        let Some((next, next_value, next_slope)) = search(x, &direction, (value, &slope), first, f) else {
+            break;
+        };
         let moved: Vec<f64> = next.iter().zip(&*x).map(|(a, b)| a - b).collect();
         let change: Vec<f64> = next_slope.iter().zip(&slope).map(|(a, b)| a - b).collect();
         if dot(&moved, &change) > 0.0 {

@@ -45,9 +45,10 @@ impl Diagram {
             }
             let place = |k: &u32| diagram.vertices[*k as usize];
             let point = points[cell.idx];
-            let farthest = own.iter().map(place).max_by(|a, b| {
-                a.distance_squared(point).total_cmp(&b.distance_squared(point))
-            });
+            let farthest = own
+                .iter()
+                .map(place)
+                .max_by(|a, b| a.distance_squared(point).total_cmp(&b.distance_squared(point)));
             let longest = farthest.map_or(Vec3::Z, |pole| (pole - point).normalize());
             diagram.areas.push(cut(&cell.clipping_planes, point, longest));
             diagram.cells.push(own);
@@ -60,7 +61,8 @@ impl Diagram {
 fn cut(planes: &[HalfSpace], point: Vec3, normal: Vec3) -> f64 {
     let (across, along) = normal.any_orthonormal_pair();
     let far = 4.0 * BOX;
-    let mut polygon = vec![Vec2::new(-far, -far), Vec2::new(far, -far), Vec2::new(far, far), Vec2::new(-far, far)];
+    let mut polygon =
+        vec![Vec2::new(-far, -far), Vec2::new(far, -far), Vec2::new(far, far), Vec2::new(-far, far)];
     for plane in planes {
         let inward = Vec3::from_array(plane.plane.n.to_array());
         let on = Vec3::from_array(plane.plane.p.to_array());
