@@ -8,10 +8,13 @@ const WOLFE: (f64, f64) = (1e-4, 0.9);
 /// Most values for one step.
 const TRIALS: usize = 20;
 
+/// A value and its slope at a place.
+type Function<'a> = &'a dyn Fn(&[f64]) -> (f64, Vec<f64>);
+/// A step and the change of slope along it.
 type Step = (Vec<f64>, Vec<f64>);
 
-/// Moves `x` to a minimum of `f`, which gives the value and its slope, in at most `steps`; ends where no step wins.
-pub fn minimise(x: &mut Vec<f64>, f: &dyn Fn(&[f64]) -> (f64, Vec<f64>), steps: usize) {
+/// Moves `x` to a minimum of `f` in at most `steps`; ends where no step wins.
+pub fn minimise(x: &mut Vec<f64>, f: Function, steps: usize) {
     let (mut value, mut slope) = f(x);
     let mut known: VecDeque<Step> = VecDeque::new();
     for _ in 0..steps {
@@ -68,7 +71,7 @@ fn search(
     direction: &[f64],
     (value, slope): (f64, &[f64]),
     first: f64,
-    f: &dyn Fn(&[f64]) -> (f64, Vec<f64>),
+    f: Function,
 ) -> Option<(Vec<f64>, f64, Vec<f64>)> {
     let promised = dot(direction, slope);
     let (mut length, mut low, mut high) = (first, 0.0, f64::INFINITY);
