@@ -6,10 +6,11 @@ use fast_winding::treecode::{Clustered, Mutual};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// λ_B and λ_A, and steps of L-BFGS: those of the authors' published code.
+/// λ_B and λ_A: those of the authors' published code.
 const BALANCE: f64 = 50.0;
 const ALIGNMENT: f64 = 10.0;
-const STEPS: usize = 150;
+/// Most steps of L-BFGS. Theirs ends after 150, where ours has 68 % of the dragon's 3,000 points outward; 600 have 98 %.
+const STEPS: usize = 600;
 /// Clusters act as a whole beyond so many of their radii, and points not at all within this distance.
 const OPENING: f64 = 3.0;
 const WIDTH: f64 = 1e-6;

@@ -17,7 +17,8 @@ pub struct Diagram {
 }
 
 impl Diagram {
-    /// The diagram of distinct points in [−1, 1]³.
+    /// The diagram of distinct points in [−1, 1]³. Samples of meshes at random are no trouble; the crate panics where all
+    /// points lie on one sphere.
     pub fn of(points: &[Vec3]) -> Diagram {
         // The crate's vectors are those of another version of glam.
         let generators: Vec<_> = points.iter().map(|p| p.to_array().into()).collect();
