@@ -5,7 +5,7 @@ mod stochastic;
 
 pub use consistency::{Bounded, ConsistencyConfig, consistent_area_vectors};
 pub use schedule::Widths;
-pub use stochastic::{StochasticConfig, Weights, stochastic_area_vectors};
+pub use stochastic::{LossWeights, StochasticConfig, stochastic_area_vectors};
 
 use crate::data::{Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
 use crate::estimate::{self, EstimateConfig, EstimateError};

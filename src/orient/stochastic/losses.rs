@@ -1,5 +1,5 @@
 //! The losses of a step by what is found at its samples (*Leaps and Bounds*, appendix F.3).
-use super::Weights;
+use super::LossWeights;
 use super::samples::Samples;
 use crate::math::Vec3;
 
@@ -25,7 +25,7 @@ pub struct Losses {
 const WELLS: [(f64, f64); 2] = [(8.0, 0.41), (8.0, 0.5)];
 
 /// The losses of all terms but that of areas.
-pub fn losses(samples: &Samples, found: &Found, weights: &Weights) -> Losses {
+pub fn losses(samples: &Samples, found: &Found, weights: &LossWeights) -> Losses {
     let count = samples.numbers.len() as f64;
     let (fine, coarse) = (samples.all_fine(), samples.all_coarse());
     let mut losses =
@@ -61,7 +61,7 @@ fn double_well(x: f64, (a, c): (f64, f64)) -> (f64, f64) {
 }
 
 /// Eqs. 65 and 66 for the fine samples of one point: half of them are to be inside. Adds to the slopes.
-fn balance(winding: &[f64], along: &mut [f64], weights: &Weights, points: f64) -> f64 {
+fn balance(winding: &[f64], along: &mut [f64], weights: &LossWeights, points: f64) -> f64 {
     let count = winding.len() as f64;
     let mean = winding.iter().sum::<f64>() / count;
     let variance = winding.iter().map(|w| (w - mean).powi(2)).sum::<f64>() / (count - 1.0);

@@ -16,9 +16,9 @@ use samples::{Deck, Random, Samples};
 
 /// How many steps there are, how long, on how many samples and for which sum of losses. The paper gives none of these numbers:
 /// the defaults were chosen on 3,000 points each of six models (bunny, dragon, knot, bumpy ball, teapot, a CAD part) without
-/// noise and of four with noise of 0.5 % of the box. Little depends on them: 300 steps or 1,500, first steps from 0.05 to 0.2,
-/// one to four coarse samples and four to sixteen fine ones changed the share of good points by less than half a percent on
-/// average.
+/// noise and of four with noise of 0.5 % of the box. Little depends on them: without noise, 300 steps or 1,500, first steps from
+/// 0.05 to 0.2, one to four coarse samples and four to sixteen fine ones changed the share of good points by less than half a
+/// percent on average.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StochasticConfig {
     /// Steps of Adam.
@@ -30,20 +30,20 @@ pub struct StochasticConfig {
     pub coarse: usize,
     /// Samples around each of them, with the mean distance to its four nearest neighbours: M_f, at least two.
     pub fine: usize,
-    /// The length of the first step, in radians and in logarithms of areas.
+    /// The length of the first step, in radians and in logarithms of areas: positive.
     pub first_rate: f64,
-    /// And of the last one, between which it falls by equal factors.
+    /// And of the last one, positive too; between them it falls by equal factors.
     pub last_rate: f64,
-    pub weights: Weights,
+    pub weights: LossWeights,
     /// Decides the normals at first and all samples.
     pub seed: u64,
 }
 
-/// How much each loss counts. Of 0.3, 1, 3 and 10, in units of [`Weights::zero_or_one`], these were best all together. More of
-/// mean and variance and of area is better for noisy clouds; more of surface is better for thin parts of clean ones, where 2
-/// finds one more point in a hundred of the CAD part, but adds 4° to the angles of noisy clouds.
+/// How much each loss counts. Of values from 0.3 to 10 the defaults were best all together. More of mean, variance and area is
+/// better for noisy clouds; more of surface is better for thin parts of clean ones, where 2 turns one more point in a hundred
+/// of the CAD part outward, but adds some 3° to the angles of noisy clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weights {
+pub struct LossWeights {
     /// That winding numbers are 0 or 1, eq. 64.
     pub zero_or_one: f64,
     /// That the mean of those around a point is ½, eq. 66.
@@ -68,15 +68,15 @@ impl Default for StochasticConfig {
             fine: 8,
             first_rate: 0.1,
             last_rate: 0.01,
-            weights: Weights::default(),
+            weights: LossWeights::default(),
             seed: 1,
         }
     }
 }
 
-impl Default for Weights {
+impl Default for LossWeights {
     fn default() -> Self {
-        Weights { zero_or_one: 1.0, mean: 3.0, variance: 3.0, alignment: 1.0, surface: 1.0, area: 3.0 }
+        LossWeights { zero_or_one: 1.0, mean: 3.0, variance: 3.0, alignment: 1.0, surface: 1.0, area: 3.0 }
     }
 }
 

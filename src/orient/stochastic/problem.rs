@@ -1,4 +1,4 @@
-use super::Weights;
+use super::LossWeights;
 use super::losses::{Found, losses};
 use super::parameters::{Parameters, Triple};
 use super::samples::Samples;
@@ -42,7 +42,7 @@ impl Problem {
         &self,
         parameters: &Parameters,
         samples: &Samples,
-        weights: &Weights,
+        weights: &LossWeights,
     ) -> (f64, Vec<Triple>) {
         let vectors = parameters.area_vectors();
         let places = Arc::new(Clustered::new(&samples.places));

@@ -2,7 +2,7 @@
 use super::parameters::{Parameters, Triple};
 use super::problem::Problem;
 use super::samples::{Deck, Random, Samples};
-use super::{StochasticConfig, Weights};
+use super::{LossWeights, StochasticConfig};
 use crate::data::Silent;
 use crate::math::Vec3;
 use std::f64::consts::PI;
@@ -21,7 +21,7 @@ fn setting(opening: f64) -> (Problem, Vec<f64>, Parameters, Samples, StochasticC
     // So that the bound matters, and areas are not what they were.
     parameters.values.iter_mut().for_each(|[_, _, area]| *area = 0.3 + random.unit());
     let weights =
-        Weights { zero_or_one: 0.7, mean: 1.3, variance: 0.9, alignment: 0.4, surface: 1.1, area: 0.2 };
+        LossWeights { zero_or_one: 0.7, mean: 1.3, variance: 0.9, alignment: 0.4, surface: 1.1, area: 0.2 };
     let config = StochasticConfig { fine: 5, coarse: 3, weights, ..Default::default() };
     let numbers = Deck::new(60).deal(20, &mut random).to_vec();
     let samples = Samples::around(&numbers, &problem, &config, &mut random);
@@ -66,7 +66,7 @@ fn loss(
     areas: &[f64],
     values: &[Triple],
     (samples, outward): (&Samples, &[Vec3]),
-    weights: &Weights,
+    weights: &LossWeights,
 ) -> f64 {
     let count = samples.numbers.len() as f64;
     let w: Vec<f64> = samples.places.iter().map(|q| winding(problem, areas, values, *q)).collect();
