@@ -38,7 +38,7 @@ fn clean_samples_are_turned_outward() {
         ("bunny", bunny(), 16.0),
     ] {
         let samples = sample_surface(&soup, 2000, 3).unwrap();
-        let vectors = found(&samples.points, &StochasticConfig::default());
+        let vectors = found(&samples.points, &short());
         let good = good_points(&vectors, &samples.normals).unwrap();
         let angle = angle_rmse(&vectors, &samples.normals).unwrap();
         println!("{name}: {good}, {angle}");
