@@ -6,10 +6,12 @@ mod normals;
 mod orientation;
 mod roughness;
 mod sites;
+mod spacing;
 mod voronoi;
 
 pub use areas::{AreaMethod, areas, complete_with};
 pub use roughness::{Roughness, deviations, roughness};
+pub use spacing::{Spacings, spacings};
 
 use crate::data::{Cancelled, CloudError, Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
 use crate::math::{Vec3, fit_plane};

@@ -1,9 +1,11 @@
 //! Normals of clouds that have none: those that make the winding number consistent with itself.
 mod consistency;
 mod schedule;
+mod stochastic;
 
 pub use consistency::{Bounded, ConsistencyConfig, consistent_area_vectors};
 pub use schedule::Widths;
+pub use stochastic::{LossWeights, StochasticConfig, stochastic_area_vectors};
 
 use crate::data::{Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
 use crate::estimate::{self, EstimateConfig, EstimateError};
@@ -15,6 +17,9 @@ use consistency::watched_area_vectors;
 pub enum OrientMethod {
     /// Winding number normal consistency (Lin et al. 2024): all points at once.
     Consistency(ConsistencyConfig),
+    /// Stochastic globally consistent normal orientation (the sGCNO of *Leaps and Bounds*): winding numbers that are 0 or 1.
+    /// Some twenty times slower.
+    Stochastic(StochasticConfig),
     /// Planes fitted to neighbours, oriented along a minimum spanning tree (Hoppe et al. 1992): a few times faster, but one
     /// wrong edge inverts all that hangs on it.
     Propagation,
@@ -54,14 +59,16 @@ pub fn orient_watched(
 ) -> Result<(OrientedCloud, Vec<Warning>), EstimateError> {
     let config = EstimateConfig::default();
     let points = cloud.points();
-    let consistency = match method {
-        OrientMethod::Consistency(consistency) if cloud.normals().is_none() && !estimate::is_flat(points) => {
-            consistency
-        }
-        _ => return estimate::orient(cloud, &config, monitor),
-    };
     let part = |fraction: f64, stage: &str| monitor.report(0.9 * fraction, stage).is_ok();
-    let area_vectors = watched_area_vectors(points, consistency, &part, watch)?;
+    let area_vectors = match method {
+        _ if cloud.normals().is_some() || estimate::is_flat(points) => None,
+        OrientMethod::Consistency(consistency) => {
+            Some(watched_area_vectors(points, consistency, &part, watch)?)
+        }
+        OrientMethod::Stochastic(stochastic) => Some(stochastic_area_vectors(points, stochastic, &part)?),
+        OrientMethod::Propagation => None,
+    };
+    let Some(area_vectors) = area_vectors else { return estimate::orient(cloud, &config, monitor) };
     // Where the field has no slope at all, nothing is better than anything else.
     let normals: Vec<Vec3> = area_vectors.iter().map(|v| v.try_normalize().unwrap_or(Vec3::Z)).collect();
     let rest = |fraction: f64, stage: &str| monitor.report(0.9 + 0.1 * fraction, stage).is_ok();

@@ -17,5 +17,5 @@ pub use dual::{
 };
 pub use expansion::Order;
 pub use kernel::{Kernel, Lanes, Quadrature, direct_sums};
-pub use mutual::Mutual;
+pub use mutual::{Clustered, Mutual};
 pub use tree::{Scratch, Tree, TreeConfig};

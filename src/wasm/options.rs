@@ -3,7 +3,7 @@ use super::failure::{Failure, object};
 use crate::data::{Lattice, Layer, Polygon, Ring, Warning};
 use crate::io::{self, CloudFormat, MeshFormat};
 use crate::math::{Aabb, Vec2};
-use crate::orient::{ConsistencyConfig, OrientMethod, Widths};
+use crate::orient::{ConsistencyConfig, OrientMethod, StochasticConfig, Widths};
 use crate::slice::{LayerPlan, SampleAt, SliceConfig};
 use crate::solid::{VoxelConfig, VoxelMethod};
 use crate::surface::SurfaceConfig;
@@ -58,9 +58,10 @@ impl OrientOptions {
                 let widths = self.noise_level.map(widths_of).transpose()?;
                 Ok(OrientMethod::Consistency(ConsistencyConfig { widths, ..Default::default() }))
             }
+            Some("stochastic") => Ok(OrientMethod::Stochastic(StochasticConfig::default())),
             Some("propagation") => Ok(OrientMethod::Propagation),
             Some(other) => Err(Failure::invalid(format!(
-                "unknown method '{other}': 'consistency' and 'propagation' are known"
+                "unknown method '{other}': 'consistency', 'stochastic' and 'propagation' are known"
             ))),
         }
     }

@@ -143,11 +143,15 @@ for (const [name, start] of Object.entries(entries)) {
       const { normals: settled } = await watched.geometry();
       const good = (found) => found.filter((_, i) => i % 3 === 0 && found[i] * normals[i] + found[i + 1] * normals[i + 1] + found[i + 2] * normals[i + 2] > 0).length;
       assert.equal(good(settled), 2000);
-      const simple = await fw.Cloud.from({ points });
-      await simple.orient({ method: 'propagation' });
-      assert.equal(good((await simple.geometry()).normals), 2000);
+      for (const [method, most] of [['propagation', 6000], ['stochastic', 900]]) {
+        const other = await fw.Cloud.from({ points: points.filter((_, i) => Math.floor(i / 3) % Math.ceil(6000 / most) === 0) });
+        await other.orient({ method });
+        const { positions, normals: found } = await other.geometry();
+        const outward = found.filter((_, i) => i % 3 === 0 && found[i] * positions[i] + found[i + 1] * positions[i + 1] + found[i + 2] * positions[i + 2] > 0);
+        assert.equal(outward.length, other.count, method);
+      }
       const bare = await fw.Cloud.from({ points });
-      await assert.rejects(async () => bare.orient({ method: 'guess' }), { code: 'InvalidArgument', message: /'consistency' and 'propagation'/ });
+      await assert.rejects(async () => bare.orient({ method: 'guess' }), { code: 'InvalidArgument', message: /'stochastic' and 'propagation'/ });
       await assert.rejects(async () => bare.orient({ noiseLevel: 6 }), { code: 'InvalidArgument', message: /noiseLevel/ });
     });
     await t.test('noise around each point', async () => {

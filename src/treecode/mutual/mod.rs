@@ -1,8 +1,8 @@
-//! Sums over all pairs of points of one cloud, again and again with other strengths: who acts on whom singly and which
+//! Sums over all pairs of a source and a target, again and again with other strengths: who acts on whom singly and which
 //! clusters act as a whole is found out once.
 //!
-//! Points are charges or dipoles; wanted are potentials or fields at the points themselves. Clusters act by a monopole, a
-//! dipole and a quadrupole about their middle.
+//! Sources are charges or dipoles; wanted are potentials or fields at the targets, which may be the sources themselves.
+//! Clusters act by a monopole, a dipole and a quadrupole about their middle.
 mod kernels;
 mod lists;
 mod series;
@@ -14,6 +14,7 @@ use crate::math::{Aabb, Vec3};
 use kernels::{Block, Record, Sum};
 use lists::{Blocks, Lists};
 use series::Clusters;
+use std::sync::Arc;
 
 /// Most points in a leaf, which are also those summed for together.
 const LEAF: usize = 16;
@@ -22,32 +23,26 @@ const WIDTH: usize = 8;
 /// Blocks that make a task.
 const BLOCKS_PER_TASK: usize = 32;
 
-/// The pairs of points of a cloud.
-///
-/// Strengths and results are in the order of the cloud.
-pub struct Mutual {
+/// Points that act or are acted on, as [`Mutual`] needs them.
+pub struct Clustered {
     /// Points in the order of the Morton curve.
     order: Vec<u32>,
     places: Vec<[f32; 3]>,
     clusters: Clusters,
     blocks: Blocks,
-    lists: Lists,
 }
 
-impl Mutual {
-    /// Finds out who acts on whom: a cluster acts as a whole where it is farther than `opening` times its radius.
-    ///
+impl Clustered {
     /// Points are to be finite and within a few units of the origin.
-    pub fn new(points: &[Vec3], opening: f64) -> Mutual {
+    pub fn new(points: &[Vec3]) -> Clustered {
         let bounds = Aabb::around(points.iter().copied());
         let bvh = Bvh::along_curve(map_items(points.len(), |i| morton_code(points[i], &bounds)), LEAF);
         let order = bvh.items().to_vec();
         let sorted: Vec<Vec3> = order.iter().map(|i| points[*i as usize]).collect();
         let clusters = Clusters::over(&bvh, &sorted);
         let blocks = Blocks::of(&clusters, &sorted);
-        let lists = Lists::find(&clusters, &blocks, opening as f32);
         let places = sorted.iter().map(|p| p.to_array().map(|x| x as f32)).collect();
-        Mutual { order, places, clusters, blocks, lists }
+        Clustered { order, places, clusters, blocks }
     }
 
     pub fn len(&self) -> usize {
@@ -64,10 +59,55 @@ impl Mutual {
             + size_of_val(&self.places[..])
             + self.clusters.bytes()
             + self.blocks.bytes()
-            + self.lists.bytes()
     }
 
-    /// Potentials Σⱼ μⱼ·(pⱼ − pᵢ) / |pⱼ − pᵢ|³ over the points that are `width` or farther away: 4π times the winding numbers
+    /// Vectors of the points in the order of the curve; none if there are none.
+    fn sorted(&self, vectors: &[Vec3]) -> Vec<Vec3> {
+        let vector = |i: &u32| vectors.get(*i as usize).copied();
+        self.order.iter().filter_map(vector).collect()
+    }
+}
+
+/// The pairs of points of a cloud, or of two: sources and targets.
+///
+/// Strengths are in the order of the sources, results in that of the targets.
+pub struct Mutual {
+    sources: Arc<Clustered>,
+    targets: Arc<Clustered>,
+    lists: Lists,
+}
+
+impl Mutual {
+    /// The pairs of points of one cloud. A cluster acts as a whole where it is farther than `opening` times its radius.
+    ///
+    /// Points are to be finite and within a few units of the origin.
+    pub fn new(points: &[Vec3], opening: f64) -> Mutual {
+        let points = Arc::new(Clustered::new(points));
+        Mutual::between(&points, &points, opening)
+    }
+
+    /// The pairs of a source and a target.
+    pub fn between(sources: &Arc<Clustered>, targets: &Arc<Clustered>, opening: f64) -> Mutual {
+        let lists = Lists::find(&sources.clusters, &targets.blocks, opening as f32);
+        Mutual { sources: sources.clone(), targets: targets.clone(), lists }
+    }
+
+    /// Number of targets.
+    pub fn len(&self) -> usize {
+        self.targets.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.targets.is_empty()
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        let targets = if Arc::ptr_eq(&self.sources, &self.targets) { 0 } else { self.targets.bytes() };
+        self.sources.bytes() + targets + self.lists.bytes()
+    }
+
+    /// Potentials Σⱼ μⱼ·(pⱼ − qᵢ) / |pⱼ − qᵢ|³ at targets q over the sources p that are `width` or farther away: 4π times the winding numbers
     /// of dipoles μ.
     pub fn potentials(&self, dipoles: &[Vec3], width: f64) -> Vec<f64> {
         firsts(self.sum(Sum::Potential, width, &|i| dipoles[i], &[]))
@@ -84,7 +124,8 @@ impl Mutual {
         firsts(self.sum(Sum::Change, width, &|i| change[i], dipoles))
     }
 
-    /// The transpose of [`Mutual::bounded_change`], as [`Mutual::fields`] is that of the potentials.
+    /// The transpose of [`Mutual::bounded_change`], as [`Mutual::fields`] is that of the potentials: `dipoles` are those of
+    /// the targets, `charges` those of the sources.
     pub fn bounded_fields(&self, dipoles: &[Vec3], charges: &[f64], width: f64) -> Vec<Vec3> {
         vectors(self.sum(Sum::TransposedChange, width, &|i| Vec3::new(charges[i], 0.0, 0.0), dipoles))
     }
@@ -96,13 +137,14 @@ impl Mutual {
         vectors(self.sum(sum, width, &|i| dipoles[i], &[]))
     }
 
-    /// Σᵢ cᵢ (pⱼ − pᵢ) / |pⱼ − pᵢ|³ over the points that are `width` or farther away: the transpose of
-    /// [`Mutual::potentials`].
+    /// Σᵢ cᵢ (qⱼ − pᵢ) / |qⱼ − pᵢ|³ at targets q over the sources p that are `width` or farther away: the transpose of
+    /// [`Mutual::potentials`] of the pairs the other way round.
     pub fn fields(&self, charges: &[f64], width: f64) -> Vec<Vec3> {
         vectors(self.sum(Sum::Field, width, &|i| Vec3::new(charges[i], 0.0, 0.0), &[]))
     }
 
-    /// `bases` are the dipoles that tell how far points are bounded, if it is a change that is asked for.
+    /// `bases` are the dipoles that tell how far points are bounded, if it is a change that is asked for: those of the
+    /// sources, or of the targets for [`Sum::TransposedChange`].
     fn sum(
         &self,
         sum: Sum,
@@ -110,41 +152,45 @@ impl Mutual {
         strength: &(dyn Fn(usize) -> Vec3 + Sync),
         bases: &[Vec3],
     ) -> Vec<[f32; 3]> {
-        let sorted: Vec<Vec3> = self.order.iter().map(|i| strength(*i as usize)).collect();
-        let base = |k: usize| bases.get(self.order[k] as usize).copied().unwrap_or(Vec3::ZERO);
-        let sorted_bases: Vec<Vec3> =
-            if bases.is_empty() { vec![] } else { (0..self.len()).map(base).collect() };
-        let bases = self.blocks.grouped(&sorted_bases);
-        let single = |v: Vec3| v.to_array().map(|x| x as f32);
-        let of_point = |k: usize| (Vec3::from_array(self.places[k].map(f64::from)), sum.moments(sorted[k]));
-        let series = self.clusters.series(&of_point);
-        let record = |k: usize| Record {
-            place: self.places[k],
-            strength: single(sorted[k]),
-            base: sorted_bases.get(k).map_or([0.0; 3], |base| single(*base)),
+        let Mutual { sources, targets, lists } = self;
+        let sorted: Vec<Vec3> = sources.order.iter().map(|i| strength(*i as usize)).collect();
+        let (of_sources, of_targets) = match sum {
+            Sum::TransposedChange => (vec![], targets.sorted(bases)),
+            _ => (sources.sorted(bases), vec![]),
         };
-        let records: Vec<Record> = (0..self.len()).map(record).collect();
-        let tasks = map_tasks(self.blocks.len().div_ceil(BLOCKS_PER_TASK), |task| {
+        let bases = targets.blocks.grouped(&of_targets);
+        let single = |v: Vec3| v.to_array().map(|x| x as f32);
+        let of_point =
+            |k: usize| (Vec3::from_array(sources.places[k].map(f64::from)), sum.moments(sorted[k]));
+        let series = sources.clusters.series(&of_point);
+        let record = |k: usize| Record {
+            place: sources.places[k],
+            strength: single(sorted[k]),
+            base: of_sources.get(k).map_or([0.0; 3], |base| single(*base)),
+        };
+        let records: Vec<Record> = (0..sources.len()).map(record).collect();
+        let blocks = &targets.blocks;
+        let tasks = map_tasks(blocks.len().div_ceil(BLOCKS_PER_TASK), |task| {
             let first = task * BLOCKS_PER_TASK;
             let mut sums = Vec::new();
-            for k in first..self.blocks.len().min(first + BLOCKS_PER_TASK) {
+            for k in first..blocks.len().min(first + BLOCKS_PER_TASK) {
                 let block = Block {
-                    groups: self.blocks.of_block(k, self.blocks.groups()),
-                    far: self.lists.far(k),
-                    near: self.lists.near(k),
+                    groups: blocks.of_block(k, blocks.groups()),
+                    far: lists.far(k),
+                    near: lists.near(k),
                     series: &series,
                     records: &records,
-                    bases: self.blocks.of_block(k, &bases),
+                    bases: blocks.of_block(k, &bases),
                     width: width as f32,
                 };
-                let end = sums.len() + self.blocks.points(k).len();
+                let end = sums.len() + blocks.points(k).len();
                 block.add(sum, &mut sums);
                 sums.truncate(end);
             }
             sums
         });
-        let mut results = vec![[0.0; 3]; self.len()];
-        for (i, value) in self.order.iter().zip(tasks.into_iter().flatten()) {
+        let mut results = vec![[0.0; 3]; targets.len()];
+        for (i, value) in targets.order.iter().zip(tasks.into_iter().flatten()) {
             results[*i as usize] = value;
         }
         results
@@ -252,6 +298,35 @@ mod tests {
                 assert!(error < most * size, "{name} of {count}: {error} of {size}");
             }
         }
+    }
+
+    #[test]
+    fn sums_between_two_clouds_are_those_of_all_pairs() {
+        let (points, dipoles, _) = sample(1200);
+        let targets: Vec<Vec3> = sample(700).0.iter().map(|p| 1.07 * p.yzx()).collect();
+        let charges: Vec<f64> = (0..700).map(|i| (1.7 * f64::from(i)).sin()).collect();
+        let [sources, places] = [&points, &targets].map(|points| Arc::new(Clustered::new(points)));
+        let (down, up) = (Mutual::between(&sources, &places, 5.0), Mutual::between(&places, &sources, 5.0));
+        assert_eq!((down.len(), up.len()), (700, 1200));
+        let cube = |offset: Vec3| offset / offset.length().powi(3);
+        let potential =
+            |q: &Vec3| points.iter().zip(&dipoles).map(|(p, d)| cube(*p - *q).dot(*d)).sum::<f64>();
+        let expected: Vec<f64> = targets.iter().map(potential).collect();
+        let error = rms(down.potentials(&dipoles, 1e-6).iter().zip(&expected).map(|(a, b)| a - b));
+        assert!(error < 5e-3 * rms(expected.iter().copied()), "{error}");
+        let field = |p: &Vec3| targets.iter().zip(&charges).map(|(q, c)| *c * cube(*p - *q)).sum::<Vec3>();
+        let expected: Vec<Vec3> = points.iter().map(field).collect();
+        let error = rms(up.fields(&charges, 1e-6).iter().zip(&expected).map(|(a, b)| a.distance(*b)));
+        assert!(error < 5e-3 * rms(expected.iter().map(|v| v.length())), "{error}");
+        // What bounds a point are the dipoles of the targets here, of the sources there.
+        let (down, up) = (Mutual::between(&sources, &places, 1e9), Mutual::between(&places, &sources, 1e9));
+        let step: Vec<Vec3> = dipoles.iter().map(|d| d.zxy()).collect();
+        let change = down.bounded_change(&dipoles, &step, 1e-6);
+        let fields = up.bounded_fields(&dipoles, &charges, 1e-6);
+        let left: f64 = change.iter().zip(&charges).map(|(a, b)| a * b).sum();
+        let right: f64 = fields.iter().zip(&step).map(|(a, b)| a.dot(*b)).sum();
+        let size: f64 = change.iter().zip(&charges).map(|(a, b)| (a * b).abs()).sum();
+        assert!((left - right).abs() < 1e-5 * size, "{left} and {right}");
     }
 
     #[test]

@@ -4,7 +4,7 @@ import { attempt } from './attempt.ts';
 import { modelOf } from './load.ts';
 
 /** How normals are estimated. */
-export type Method = 'consistency' | 'propagation';
+export type Method = 'consistency' | 'stochastic' | 'propagation';
 
 /** Estimates the normals of the cloud that is shown, which shows them while they settle. */
 export async function orient(page: Page, method: Method): Promise<void> {
