@@ -1,11 +1,14 @@
 //! Level sets by continuation: from cells that hold geometry to their neighbours, as long as the level set goes on
 //! (Wyvill et al. 1986). Knows grids and inside tests, nothing of where they come from.
+mod bricks;
 mod cube_cases;
 mod cubes;
+mod roots;
 mod seeds;
 mod squares;
 
-pub use cubes::{SurfaceGrid, TraceError, trace_surface};
+pub use cubes::{Edge, InsideTest, LevelSet, SurfaceGrid, TraceError, trace_surface};
+pub use roots::find_roots;
 pub use seeds::{Cell, cells_of_point, cells_of_shape, cells_of_triangle};
 pub use squares::{PlaneGrid, trace_contours};
 

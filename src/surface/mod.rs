@@ -1,6 +1,8 @@
 //! Surfaces from a field: its level set as a mesh.
-use crate::data::{Lattice, LatticeError, Monitor, SurfaceMesh};
-use crate::levelset::{At, SurfaceGrid, TraceError, cells_of_shape, trace_surface};
+mod samples;
+
+use crate::data::{Lattice, LatticeError, Monitor, Shape, SurfaceMesh};
+use crate::levelset::{At, Edge, InsideTest, LevelSet, SurfaceGrid, TraceError, cells_of_shape, find_roots, trace_surface};
 use crate::math::Vec3;
 use crate::winding::{Scratch, WindingField};
 
@@ -51,10 +53,14 @@ pub fn extract(
     };
     let grid = SurfaceGrid { origin: lattice.origin, spacing: lattice.spacing.x };
     let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
+    if let Shape::Cloud(_) = field.shape() {
+        let level_set = samples::Samples { field, level: config.level };
+        return Ok(trace_surface(&grid, &seeds, &level_set, monitor)?);
+    }
     field.prepare_single_points();
     let inside = |p: Vec3, at: At, scratch: &mut Scratch| match at {
         At::Node => field.is_above(p, config.level, scratch),
         At::Edge => field.is_nearly_above(p, config.level, scratch),
     };
-    Ok(trace_surface(&grid, &seeds, inside, monitor)?)
+    Ok(trace_surface(&grid, &seeds, &InsideTest::new(inside), monitor)?)
 }

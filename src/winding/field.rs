@@ -8,7 +8,7 @@ use crate::data::{
     for_each_lattice_block, set_bit, zeroed,
 };
 use crate::math::{Aabb, Vec3};
-use crate::treecode::{DualAccuracy, LatticeTargets, Order, PointTargets, Scratch, Tree, TreeConfig};
+use crate::treecode::{DualAccuracy, LatticeTargets, Order, PointTargets, Scratch, Targets, Tree, TreeConfig};
 use serde::Serialize;
 use std::sync::OnceLock;
 
@@ -291,6 +291,21 @@ impl WindingField {
             }
         };
         fill_blocks(&mut values, BLOCK, block, "winding numbers", monitor)?;
+        Ok(values)
+    }
+
+    /// Winding numbers of a cloud at any number of targets, to a tolerance, without what single points need.
+    pub fn evaluate_targets(
+        &self,
+        targets: &dyn Targets,
+        count: usize,
+        tolerance: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<f64>, FieldError> {
+        let mut values = zeroed(count)?;
+        if let Some((many, accuracy)) = self.many_for(Accuracy::Tolerance(tolerance)) {
+            many.add(targets, &accuracy, &mut values, monitor)?;
+        }
         Ok(values)
     }
 
