@@ -9,7 +9,7 @@ mod squares;
 
 pub use cubes::{Edge, InsideTest, LevelSet, SurfaceGrid, TraceError, trace_surface};
 pub use roots::find_roots;
-pub use seeds::{Cell, cells_of_point, cells_of_shape, cells_of_triangle};
+pub use seeds::{Cell, cells_of_point, cells_of_points, cells_of_shape, cells_of_triangle};
 pub use squares::{PlaneGrid, trace_contours};
 
 /// Where an inside test is asked.

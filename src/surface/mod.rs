@@ -1,25 +1,46 @@
 //! Surfaces from a field: its level set as a mesh.
+mod components;
+mod level;
 mod samples;
+mod trim;
 
-use crate::data::{Lattice, LatticeError, Monitor, Shape, SurfaceMesh};
-use crate::levelset::{At, Edge, InsideTest, LevelSet, SurfaceGrid, TraceError, cells_of_shape, find_roots, trace_surface};
-use crate::math::Vec3;
-use crate::winding::{Scratch, WindingField};
+pub use level::suggested_level;
+
+use crate::data::{Cancelled, Lattice, LatticeError, Monitor, Shape, SurfaceMesh};
+use crate::estimate::{EstimateError, roughness};
+use crate::levelset::{
+    At, InsideTest, SurfaceGrid, TraceError, cells_of_points, cells_of_shape, trace_surface,
+};
+use crate::math::{Vec3, area_vector};
+use crate::winding::{FieldError, Scratch, WindingField};
+use samples::Samples;
+use trim::Reach;
 
 /// How a surface is traced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceConfig {
-    /// Cells along the longest side of the bounds; used when `spacing` is not given.
-    pub resolution: usize,
+    /// Cells along the longest side of the bounds; used when `spacing` is not given. Where neither is, soups get
+    /// [`SurfaceConfig::SOUP_RESOLUTION`], and clouds cells as large as the distances of their points allow.
+    pub resolution: Option<usize>,
     /// Edge of a cell in millimetres.
     pub spacing: Option<f64>,
-    /// The winding number on the surface.
-    pub level: f64,
+    /// The winding number on the surface; where it is not given, [`suggested_level`].
+    pub level: Option<f64>,
+    /// Pieces of the surface that have less than this share of the largest one's area are left out.
+    pub min_component: Option<f64>,
+    /// Surface that is farther from the nearest point of a cloud than this many of the distances between points there is left out: it
+    /// is then open, but still manifold.
+    pub trim: Option<f64>,
+}
+
+impl SurfaceConfig {
+    /// Cells along the longest side of a soup.
+    pub const SOUP_RESOLUTION: usize = 64;
 }
 
 impl Default for SurfaceConfig {
     fn default() -> Self {
-        SurfaceConfig { resolution: 64, spacing: None, level: 0.5 }
+        SurfaceConfig { resolution: None, spacing: None, level: Some(0.5), min_component: None, trim: None }
     }
 }
 
@@ -32,10 +53,33 @@ pub enum SurfaceError {
     Trace(#[from] TraceError),
     #[error("a level of {0} has no closed surface: it must be finite and not 0, the winding number far away")]
     BadLevel(f64),
+    #[error("pieces cannot be at least {0} of the largest: a share from 0 to 1 is needed")]
+    BadShare(f64),
+    #[error("a surface cannot be trimmed at {0} distances from the points: a finite number above 0 is needed")]
+    BadTrim(f64),
+    #[error("only surfaces of clouds are trimmed: triangles have no points to keep near to")]
+    TrimmedSoup,
 }
 
-/// The surface {w = level}, traced from the cells that hold geometry (Barill et al. 2018, Fig. 9): closed, manifold,
-/// oriented outward, its vertices found by bisection. It may reach beyond the bounds, as the field does.
+impl From<FieldError> for SurfaceError {
+    fn from(error: FieldError) -> SurfaceError {
+        match error {
+            FieldError::Lattice(lattice) => lattice.into(),
+            FieldError::Cancelled(cancelled) => cancelled.into(),
+            FieldError::OutOfMemory(out_of_memory) => TraceError::from(out_of_memory).into(),
+        }
+    }
+}
+
+impl From<Cancelled> for SurfaceError {
+    fn from(cancelled: Cancelled) -> SurfaceError {
+        TraceError::from(cancelled).into()
+    }
+}
+
+/// The surface {w = level}, traced from the cells that hold geometry (Barill et al. 2018, Fig. 9): closed unless it is trimmed,
+/// manifold, oriented outward. Vertices lie where edges of the cells cross it: of soups, where w jumps, by bisection; of clouds, where
+/// it is smooth, by false position on values within 0.01. It may reach beyond the bounds, as the field does.
 ///
 /// # Errors
 /// If and only if the shape is empty, an option is out of range, or the monitor cancels.
@@ -44,23 +88,104 @@ pub fn extract(
     config: &SurfaceConfig,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, SurfaceError> {
-    if !config.level.is_finite() || config.level == 0.0 {
-        return Err(SurfaceError::BadLevel(config.level));
-    }
-    let lattice = match config.spacing {
-        Some(spacing) => Lattice::with_spacing(field.bounds(), spacing)?,
-        None => Lattice::with_resolution(field.bounds(), config.resolution)?,
+    check(field.shape(), config)?;
+    let grid = grid(field, config, monitor)?;
+    let level = match config.level {
+        Some(level) => level,
+        None => suggested_level(field, monitor)?,
     };
-    let grid = SurfaceGrid { origin: lattice.origin, spacing: lattice.spacing.x };
-    let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
-    if let Shape::Cloud(_) = field.shape() {
-        let level_set = samples::Samples { field, level: config.level };
-        return Ok(trace_surface(&grid, &seeds, &level_set, monitor)?);
+    if !level.is_finite() || level == 0.0 && config.trim.is_none() {
+        return Err(SurfaceError::BadLevel(level));
     }
+    let mut mesh = match field.shape() {
+        Shape::Soup(_) => trace_soup(field, &grid, level, monitor)?,
+        Shape::Cloud(cloud) => {
+            let seeds = cells_of_points(cloud.points(), grid.origin, Vec3::splat(grid.spacing));
+            let reach = config.trim.map(|trim| Reach::new(cloud, trim, monitor)).transpose()?;
+            let samples = Samples { field, level, reach: reach.as_ref(), spacing: grid.spacing };
+            let mut mesh = trace_surface(&grid, &seeds, &samples, monitor)?;
+            if let Some(reach) = &reach {
+                reach.trim(&mut mesh, monitor)?;
+            }
+            mesh
+        }
+    };
+    if let Some(share) = config.min_component {
+        components::keep_large(&mut mesh, share);
+    }
+    Ok(mesh)
+}
+
+fn check(shape: &Shape, config: &SurfaceConfig) -> Result<(), SurfaceError> {
+    if let Some(share) = config.min_component.filter(|share| !(0.0..=1.0).contains(share)) {
+        return Err(SurfaceError::BadShare(share));
+    }
+    match (shape, config.trim) {
+        (_, Some(trim)) if !(trim.is_finite() && trim > 0.0) => Err(SurfaceError::BadTrim(trim)),
+        (Shape::Soup(_), Some(_)) => Err(SurfaceError::TrimmedSoup),
+        _ => Ok(()),
+    }
+}
+
+fn trace_soup(
+    field: &WindingField,
+    grid: &SurfaceGrid,
+    level: f64,
+    monitor: &dyn Monitor,
+) -> Result<SurfaceMesh, SurfaceError> {
+    let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
     field.prepare_single_points();
     let inside = |p: Vec3, at: At, scratch: &mut Scratch| match at {
-        At::Node => field.is_above(p, config.level, scratch),
-        At::Edge => field.is_nearly_above(p, config.level, scratch),
+        At::Node => field.is_above(p, level, scratch),
+        At::Edge => field.is_nearly_above(p, level, scratch),
     };
-    Ok(trace_surface(&grid, &seeds, &InsideTest::new(inside), monitor)?)
+    Ok(trace_surface(grid, &seeds, &InsideTest::new(inside), monitor)?)
+}
+
+/// Edge of a cell of a cloud, in distances between its points.
+const CELL_OF_CLOUD: f64 = 0.7;
+/// Nodes that are sampled for each square of a cell's edge: bricks of 64 that a surface crosses askew.
+const NODES_PER_SQUARE: f64 = 12.0;
+
+/// Cells over the bounds, centred on them.
+fn grid(
+    field: &WindingField,
+    config: &SurfaceConfig,
+    monitor: &dyn Monitor,
+) -> Result<SurfaceGrid, SurfaceError> {
+    let (shape, bounds) = (field.shape(), field.bounds());
+    if bounds.is_empty() {
+        return Err(LatticeError::EmptyBounds.into());
+    }
+    let longest = bounds.size().max_element();
+    let spacing = match (config.spacing, config.resolution, shape) {
+        (Some(spacing), ..) => spacing,
+        (_, Some(0), _) => return Err(LatticeError::BadResolution(0.0).into()),
+        (_, Some(resolution), _) => longest / resolution as f64,
+        (_, None, Shape::Soup(_)) => longest / SurfaceConfig::SOUP_RESOLUTION as f64,
+        (_, None, Shape::Cloud(cloud)) => match roughness(cloud.points(), monitor) {
+            Ok(found) => std::env::var("CELL").map_or(CELL_OF_CLOUD, |c| c.parse().unwrap()) * found.spacing,
+            Err(EstimateError::Cancelled(cancelled)) => return Err(cancelled.into()),
+            Err(_) => return Err(LatticeError::EmptyBounds.into()),
+        },
+    };
+    // What lies in one place has no size: any spacing serves.
+    let spacing = if spacing == 0.0 && config.spacing.is_none() { 1.0 } else { spacing };
+    if !(spacing.is_finite() && spacing > 0.0) {
+        return Err(LatticeError::BadSpacing(spacing).into());
+    }
+    let nodes = NODES_PER_SQUARE * area(shape) / (spacing * spacing);
+    if nodes > Lattice::MAX_SAMPLES as f64 {
+        return Err(LatticeError::TooMany(nodes).into());
+    }
+    // The slack keeps a side of exactly n cells from getting n + 1 by rounding.
+    let cells = (bounds.size() / spacing - Vec3::splat(1e-9)).ceil().max(Vec3::ONE);
+    Ok(SurfaceGrid { origin: bounds.center() - 0.5 * spacing * (cells - Vec3::ONE), spacing })
+}
+
+fn area(shape: &Shape) -> f64 {
+    match shape {
+        Shape::Soup(soup) => (0..soup.len()).map(|t| area_vector(soup.corners(t)).length()).sum(),
+        Shape::Cloud(cloud) => cloud.areas().iter().sum(),
+    }
 }

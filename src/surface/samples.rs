@@ -1,26 +1,52 @@
-use crate::data::{Monitor, Silent};
+//! The level set of a cloud: smooth, and asked for at many places at once.
+use super::trim::Reach;
+use crate::bvh::Nearest;
+use crate::data::{BLOCK, Monitor, fill_in_blocks};
 use crate::levelset::{Edge, LevelSet, TraceError, find_roots};
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{Cells, Targets};
 use crate::winding::{FieldError, WindingField};
 
+/// Largest error of w.
+const TOLERANCE: f64 = 1e-2;
+
 /// The field of a cloud, less a level.
 pub struct Samples<'a> {
     pub field: &'a WindingField,
     pub level: f64,
+    /// Where it is traced, if not everywhere.
+    pub reach: Option<&'a Reach>,
+    /// Between nodes.
+    pub spacing: f64,
 }
-
-fn env(n: &str, d: f64) -> f64 { std::env::var(n).ok().and_then(|s| s.parse().ok()).unwrap_or(d) }
 
 impl Samples<'_> {
     fn at(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
-        let mut values = self.field.evaluate_targets(&InOrder(points), points.len(), env("TOL", 1e-2), monitor).map_err(|e| match e {
-            FieldError::Cancelled(c) => TraceError::Cancelled(c),
-            FieldError::OutOfMemory(o) => TraceError::OutOfMemory(o),
-            FieldError::Lattice(_) => unreachable!(),
+        let found = self.field.evaluate_targets(&InOrder(points), points.len(), TOLERANCE, monitor);
+        let mut values = found.map_err(|error| match error {
+            FieldError::Cancelled(cancelled) => TraceError::Cancelled(cancelled),
+            FieldError::OutOfMemory(out_of_memory) => TraceError::OutOfMemory(out_of_memory),
+            FieldError::Lattice(_) => unreachable!("no lattice was asked for"),
         })?;
         values.iter_mut().for_each(|w| *w -= self.level);
         Ok(values)
+    }
+
+    /// Values in bricks that reach into a ball around a point, NaN in the others.
+    fn within(&self, reach: &Reach, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f32>, TraceError> {
+        let bricks: Vec<&[Vec3]> = points.chunks(BLOCK).collect();
+        let mut held = vec![false; bricks.len()];
+        let is_held = |k: usize, nearest: &mut Nearest| {
+            let bounds = Aabb::around(bricks[k].iter().copied());
+            reach.holds(bounds.center(), 0.5 * bounds.diagonal() + self.spacing, nearest)
+        };
+        fill_in_blocks(&mut held, is_held, "surface cells", monitor)?;
+        let wanted: Vec<Vec3> =
+            bricks.iter().zip(&held).filter(|(_, held)| **held).flat_map(|(brick, _)| *brick).copied().collect();
+        let mut values = self.at(&wanted, monitor)?.into_iter();
+        let is_held = |k: usize| held[k / BLOCK];
+        let value = |k: usize| if is_held(k) { values.next().map_or(f32::NAN, |w| w as f32) } else { f32::NAN };
+        Ok((0..points.len()).map(value).collect())
     }
 }
 
@@ -30,15 +56,18 @@ impl LevelSet for Samples<'_> {
     }
 
     fn values(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f32>, TraceError> {
-        Ok(self.at(points, monitor)?.into_iter().map(|w| w as f32).collect())
+        match self.reach {
+            Some(reach) => self.within(reach, points, monitor),
+            None => Ok(self.at(points, monitor)?.into_iter().map(|w| w as f32).collect()),
+        }
     }
 
     fn crossings(&self, edges: &[Edge], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
-        find_roots(edges, &|points| self.at(points, &Silent))
+        find_roots(edges, &|points, part: &dyn Monitor| self.at(points, part), monitor)
     }
 }
 
-/// Points that lie in an order in which neighbours are near each other.
+/// Points in an order in which neighbours are near each other, as those of bricks along a curve are.
 struct InOrder<'a>(&'a [Vec3]);
 
 impl Targets for InOrder<'_> {
@@ -54,20 +83,16 @@ impl Targets for InOrder<'_> {
         Aabb::around(self.0[places.clone()].iter().copied())
     }
 
+    /// In up to eight parts of as many whole blocks.
     fn split(&self, [places, ..]: &Cells, child: &mut dyn FnMut(Cells)) {
-        let blocks = places.len().div_ceil(64);
-        let mut start = places.start;
-        for k in 0..8 {
-            let end = (places.start + 64 * (blocks * (k + 1) / 8)).min(places.end);
-            if end > start {
-                child([start..end, 0..1, 0..1]);
-            }
-            start = end;
-        }
+        let blocks = places.len().div_ceil(BLOCK);
+        let end_of = |part: usize| (places.start + BLOCK * (blocks * part / 8)).min(places.end);
+        let parts = (0..8).map(|part| end_of(part)..end_of(part + 1));
+        parts.filter(|part| !part.is_empty()).for_each(|part| child([part, 0..1, 0..1]));
     }
 
     fn for_each(&self, [places, ..]: &Cells, sample: &mut dyn FnMut(usize, Vec3)) {
-        places.clone().for_each(|i| sample(i, self.0[i]));
+        places.clone().for_each(|place| sample(place, self.0[place]));
     }
 
     fn outcasts(&self) -> &[u32] {

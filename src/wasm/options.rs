@@ -211,9 +211,10 @@ impl SurfaceOptions {
     pub fn config(&self) -> SurfaceConfig {
         let default = SurfaceConfig::default();
         SurfaceConfig {
-            resolution: self.resolution.unwrap_or(default.resolution),
+            resolution: Some(self.resolution.unwrap_or(SurfaceConfig::SOUP_RESOLUTION)),
             spacing: self.spacing,
-            level: self.level.unwrap_or(default.level),
+            level: self.level.or(default.level),
+            ..default
         }
     }
 }

@@ -72,7 +72,10 @@ fn ours(model: &TriangleSoup, options: &Options) {
     let (cloud, _) =
         PointCloud::cleaned(samples.points, Some(samples.normals), None).expect("they are as many");
     let config = SurfaceConfig {
-        resolution: options.number("resolution").map_or(SurfaceConfig::default().resolution, |n| n as usize),
+        resolution: options.number("resolution").map(|n| n as usize),
+        level: options.number("level").or(Some(0.5)).filter(|level| *level != 0.0),
+        min_component: options.number("min-component"),
+        trim: options.number("trim"),
         ..SurfaceConfig::default()
     };
     let start = Instant::now();
