@@ -70,7 +70,8 @@ fn node_of(first: Cell, bit: usize) -> Cell {
 }
 
 impl Bricks {
-    /// Visits the seeds and, from each cell that the level set passes through, the neighbours that it goes on in.
+    /// Visits the seeds and, from each cell that the level set passes through, the neighbours that it goes on in. Of a set that is
+    /// smooth, and may pass by what made it, also the cells around seeds that it passes nowhere near.
     pub fn trace(
         grid: &SurfaceGrid,
         seeds: &[Cell],
@@ -82,22 +83,48 @@ impl Bricks {
         for seed in seeds {
             bricks.visit_later(*seed, &mut open)?;
         }
+        bricks.go_on(open, grid, level_set, monitor)?;
+        if level_set.takes_bricks() {
+            let is_alone = |seed: &&Cell| !(0..27).any(|k| bricks.is_active(neighbour(**seed, k)));
+            let alone: Vec<Cell> = seeds.iter().filter(is_alone).copied().collect();
+            let mut open = Vec::new();
+            for (seed, k) in alone.into_iter().flat_map(|seed| (0..27).map(move |k| (seed, k))) {
+                bricks.visit_later(neighbour(seed, k), &mut open)?;
+            }
+            bricks.go_on(open, grid, level_set, monitor)?;
+        }
+        Ok(bricks)
+    }
+
+    fn go_on(
+        &mut self,
+        mut open: Vec<u32>,
+        grid: &SurfaceGrid,
+        level_set: &dyn LevelSet,
+        monitor: &dyn Monitor,
+    ) -> Result<(), TraceError> {
         // How far a continuation has to go is not known: progress begins with the vertices.
         let undetermined = |_: f64, _: &str| monitor.report(0.0, "surface cells").is_ok();
         while !open.is_empty() {
             let mut waiting = Vec::new();
             while let Some(brick) = open.pop() {
-                let around = bricks.make_around(brick, bricks.bricks[brick as usize].pending)?;
-                if bricks.request(&around, level_set.takes_bricks()) {
+                let around = self.make_around(brick, self.bricks[brick as usize].pending)?;
+                if self.request(&around, level_set.takes_bricks()) {
                     waiting.push(brick);
                 } else {
-                    bricks.visit(&around, &mut open)?;
+                    self.visit(&around, &mut open)?;
                 }
             }
-            bricks.sample(grid, level_set, &undetermined)?;
+            self.sample(grid, level_set, &undetermined)?;
             open = waiting;
         }
-        Ok(bricks)
+        Ok(())
+    }
+
+    fn is_active(&self, cell: Cell) -> bool {
+        self.places
+            .get(&key(cell))
+            .is_some_and(|place| self.bricks[*place as usize].active >> bit_of(cell) & 1 == 1)
     }
 
     /// The brick of a node and the node's bit there.
@@ -112,8 +139,7 @@ impl Bricks {
             self.bricks.push(Brick { first, ..Brick::default() });
             self.values.extend([f32::NAN; NODES]);
         }
-        let bit = (0..3).fold(0, |bit, axis| bit | ((node[axis] & 3) as usize) << (2 * axis));
-        Ok((brick, bit))
+        Ok((brick, bit_of(node)))
     }
 
     /// Marks a cell to be visited; its brick is added to `open` unless it is there already.
@@ -253,6 +279,17 @@ impl Bricks {
 /// A number for the brick of a node.
 fn key(node: Cell) -> u64 {
     (0..3).fold(0, |key, axis| key | (((node[axis] + LIMIT) >> 2) as u64) << (20 * axis))
+}
+
+/// The bit of a node in its brick.
+fn bit_of(node: Cell) -> usize {
+    (0..3).fold(0, |bit, axis| bit | ((node[axis] & 3) as usize) << (2 * axis))
+}
+
+/// The cells around one, for numbers below 27, beginning with itself.
+fn neighbour(cell: Cell, number: i32) -> Cell {
+    let part = |power: i32| (number / power + 1) % 3 - 1;
+    [cell[0] + part(1), cell[1] + part(3), cell[2] + part(9)]
 }
 
 /// The first node of the brick after one along the axes whose bits are set.

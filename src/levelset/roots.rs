@@ -30,11 +30,7 @@ pub type Values<'a> = dyn Fn(&[Vec3], &dyn Monitor) -> Result<Vec<f64>, TraceErr
 ///
 /// # Errors
 /// As `values`.
-pub fn find_roots(
-    edges: &[Edge],
-    values: &Values,
-    monitor: &dyn Monitor,
-) -> Result<Vec<f64>, TraceError> {
+pub fn find_roots(edges: &[Edge], values: &Values, monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
     let start = |(edge, e): (usize, &Edge)| Bracket {
         edge,
         ends: [0.0, 1.0],

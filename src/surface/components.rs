@@ -102,8 +102,7 @@ mod tests {
 
     #[test]
     fn small_pieces_go_and_the_rest_is_numbered_anew() {
-        let positions =
-            [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1], [5.0, 5.0], [9.0, 5.0], [5.0, 9.0], [9.0, 9.0]];
+        let positions = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1], [5.0, 5.0], [9.0, 5.0], [5.0, 9.0], [9.0, 9.0]];
         let all = mesh(&positions, &[[0, 1, 2], [3, 4, 5], [4, 6, 5]]);
         let mut few = all.clone();
         keep_large(&mut few, 1e-3);
@@ -117,7 +116,8 @@ mod tests {
     #[test]
     fn two_fans_at_a_vertex_get_one_each() {
         // Two squares that touch in vertex 0.
-        let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 0.0], [-1.0, -1.0], [0.0, -1.0]];
+        let positions =
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 0.0], [-1.0, -1.0], [0.0, -1.0]];
         let mut mesh = mesh(&positions, &[[0, 1, 2], [0, 2, 3], [0, 4, 5], [0, 5, 6]]);
         split_fans(&mut mesh);
         assert_eq!(mesh.positions.len(), 8);

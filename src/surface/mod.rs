@@ -55,7 +55,9 @@ pub enum SurfaceError {
     BadLevel(f64),
     #[error("pieces cannot be at least {0} of the largest: a share from 0 to 1 is needed")]
     BadShare(f64),
-    #[error("a surface cannot be trimmed at {0} distances from the points: a finite number above 0 is needed")]
+    #[error(
+        "a surface cannot be trimmed at {0} distances from the points: a finite number above 0 is needed"
+    )]
     BadTrim(f64),
     #[error("only surfaces of clouds are trimmed: triangles have no points to keep near to")]
     TrimmedSoup,

@@ -41,11 +41,17 @@ impl Samples<'_> {
             reach.holds(bounds.center(), 0.5 * bounds.diagonal() + self.spacing, nearest)
         };
         fill_in_blocks(&mut held, is_held, "surface cells", monitor)?;
-        let wanted: Vec<Vec3> =
-            bricks.iter().zip(&held).filter(|(_, held)| **held).flat_map(|(brick, _)| *brick).copied().collect();
+        let wanted: Vec<Vec3> = bricks
+            .iter()
+            .zip(&held)
+            .filter(|(_, held)| **held)
+            .flat_map(|(brick, _)| *brick)
+            .copied()
+            .collect();
         let mut values = self.at(&wanted, monitor)?.into_iter();
         let is_held = |k: usize| held[k / BLOCK];
-        let value = |k: usize| if is_held(k) { values.next().map_or(f32::NAN, |w| w as f32) } else { f32::NAN };
+        let value =
+            |k: usize| if is_held(k) { values.next().map_or(f32::NAN, |w| w as f32) } else { f32::NAN };
         Ok((0..points.len()).map(value).collect())
     }
 }

@@ -8,7 +8,9 @@ use crate::data::{
     for_each_lattice_block, set_bit, zeroed,
 };
 use crate::math::{Aabb, Vec3};
-use crate::treecode::{DualAccuracy, LatticeTargets, Order, PointTargets, Scratch, Targets, Tree, TreeConfig};
+use crate::treecode::{
+    DualAccuracy, LatticeTargets, Order, PointTargets, Scratch, Targets, Tree, TreeConfig,
+};
 use serde::Serialize;
 use std::sync::OnceLock;
 

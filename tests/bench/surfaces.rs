@@ -97,7 +97,10 @@ fn ours(model: &TriangleSoup, options: &Options) {
         io::write_soup(&soup, MeshFormat::Ply, &mut bytes).expect("memory takes all");
         std::fs::write(path, bytes).expect("the surface can be written");
     }
-    println!("{{{times}\"vertices\": {vertices}, \"vertexNormals\": {normals:.5}, {}}}", compare(model, &soup));
+    println!(
+        "{{{times}\"vertices\": {vertices}, \"vertexNormals\": {normals:.5}, {}}}",
+        compare(model, &soup)
+    );
 }
 
 /// The mean cosine between the normals of vertices and that of the truth nearest to them.
@@ -126,7 +129,8 @@ fn compare(model: &TriangleSoup, found: &TriangleSoup) -> String {
 /// The mean distance of `a` from the planes at the nearest of `b`.
 fn off_plane(a: &SurfaceSamples, b: &SurfaceSamples) -> f64 {
     let near = NearestPoints::new(&b.points).of(&a.points);
-    let off = near.iter().zip(&a.points).map(|(near, p)| (*p - b.points[near.0]).dot(b.normals[near.0]).abs());
+    let off =
+        near.iter().zip(&a.points).map(|(near, p)| (*p - b.points[near.0]).dot(b.normals[near.0]).abs());
     off.sum::<f64>() / a.points.len() as f64
 }
 

@@ -72,8 +72,8 @@ pub fn layers_agree() {
 
 pub fn surfaces_agree() {
     let field = field(sphere_cloud(2000));
-    let mesh =
-        extract(&field, &SurfaceConfig { resolution: Some(20), ..SurfaceConfig::default() }, &Silent).unwrap();
+    let mesh = extract(&field, &SurfaceConfig { resolution: Some(20), ..SurfaceConfig::default() }, &Silent)
+        .unwrap();
     // A sphere: twice as many faces as vertices, less four.
     assert_eq!(mesh.triangles.len(), 2 * mesh.positions.len() - 4);
     assert_eq!(mesh.positions.len(), 1896);
