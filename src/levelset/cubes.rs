@@ -1,11 +1,10 @@
 //! Marching cubes by continuation: a closed, manifold, outward-oriented surface of a level set.
+use super::CLEARANCE;
 use super::bricks::{Around, Bricks, LIMIT, bits, corner_of};
 use super::cube_cases::{EDGES, TRIANGLES};
 use super::seeds::Cell;
-use super::{At, CLEARANCE, crossing};
-use crate::data::{Cancelled, Monitor, OutOfMemory, SurfaceMesh, fill_in_blocks};
+use crate::data::{Cancelled, Monitor, OutOfMemory, SurfaceMesh};
 use crate::math::Vec3;
-use std::marker::PhantomData;
 
 /// Cubic cells in space: node (i, j, k) lies at `origin + spacing * (i, j, k)`, its cell is on the positive side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,41 +63,6 @@ pub trait LevelSet {
     /// # Errors
     /// If and only if the monitor cancels, or memory does not suffice.
     fn crossings(&self, edges: &[Edge], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError>;
-}
-
-/// A level set of which is known only what is inside: edges are bisected.
-///
-/// The test gets a position, what that is, and scratch space; it is called from many threads.
-pub struct InsideTest<F, S>(F, PhantomData<fn() -> S>);
-
-impl<S: Default, F: Fn(Vec3, At, &mut S) -> bool + Sync> InsideTest<F, S> {
-    pub fn new(test: F) -> InsideTest<F, S> {
-        InsideTest(test, PhantomData)
-    }
-}
-
-impl<S: Default, F: Fn(Vec3, At, &mut S) -> bool + Sync> LevelSet for InsideTest<F, S> {
-    fn takes_bricks(&self) -> bool {
-        false
-    }
-
-    fn values(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f32>, TraceError> {
-        let mut values = vec![0.0; points.len()];
-        let value =
-            |i: usize, scratch: &mut S| if (self.0)(points[i], At::Node, scratch) { 1.0 } else { -1.0 };
-        fill_in_blocks(&mut values, value, "surface cells", monitor)?;
-        Ok(values)
-    }
-
-    fn crossings(&self, edges: &[Edge], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
-        let mut crossings = vec![0.0; edges.len()];
-        let find = |i: usize, scratch: &mut S| {
-            let edge = &edges[i];
-            crossing(edge.ends[0] > 0.0, |t| (self.0)(edge.at(t), At::Edge, scratch))
-        };
-        fill_in_blocks(&mut crossings, find, "surface vertices", monitor)?;
-        Ok(crossings)
-    }
 }
 
 /// Edges that are asked for together.
@@ -219,8 +183,27 @@ fn is_crossed(case: u8, edge: usize) -> bool {
 mod tests {
     use super::*;
     use crate::data::Silent;
+    use crate::levelset::crossing;
     use std::collections::HashMap;
     use std::f64::consts::PI;
+
+    /// A level set of which is known only what is inside.
+    struct InsideTest<F>(F);
+
+    impl<F: Fn(Vec3) -> bool> LevelSet for InsideTest<F> {
+        fn takes_bricks(&self) -> bool {
+            false
+        }
+
+        fn values(&self, points: &[Vec3], _: &dyn Monitor) -> Result<Vec<f32>, TraceError> {
+            Ok(points.iter().map(|p| if (self.0)(*p) { 1.0 } else { -1.0 }).collect())
+        }
+
+        fn crossings(&self, edges: &[Edge], _: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
+            let cross = |edge: &Edge| crossing(edge.ends[0] > 0.0, |t| (self.0)(edge.at(t)));
+            Ok(edges.iter().map(cross).collect())
+        }
+    }
 
     /// V − E + F, after checking that every edge has two opposite triangles.
     fn euler_number(mesh: &SurfaceMesh) -> i64 {
@@ -235,13 +218,13 @@ mod tests {
         mesh.positions.len() as i64 - edges.len() as i64 / 2 + mesh.triangles.len() as i64
     }
 
-    fn trace(spacing: f64, seeds: &[Vec3], inside: impl Fn(Vec3) -> bool + Sync) -> SurfaceMesh {
+    fn trace(spacing: f64, seeds: &[Vec3], inside: impl Fn(Vec3) -> bool) -> SurfaceMesh {
         let grid = SurfaceGrid { origin: Vec3::new(0.013, -0.02, 0.007), spacing };
         let cells: Vec<Cell> = seeds
             .iter()
             .map(|p| crate::levelset::cells_of_point(*p, grid.origin, Vec3::splat(spacing)))
             .collect();
-        trace_surface(&grid, &cells, &InsideTest::new(|p, _, (): &mut ()| inside(p)), &Silent).unwrap()
+        trace_surface(&grid, &cells, &InsideTest(inside), &Silent).unwrap()
     }
 
     #[test]
@@ -265,14 +248,14 @@ mod tests {
     fn random_cells_still_make_a_manifold() {
         // All 256 cases, next to each other in all ways: a hash of the node decides.
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
-        let inside = |p: Vec3, _: At, (): &mut ()| {
+        let inside = |p: Vec3| {
             let n = p.round();
             let in_box = n.cmpgt(Vec3::ZERO).all() && n.cmplt(Vec3::splat(14.0)).all();
             let h = (n.x * 7919.0 + n.y * 104_729.0 + n.z * 1_299_709.0).sin() * 43_758.545;
             in_box && h - h.floor() < 0.5
         };
         let seeds: Vec<Cell> = (0..15 * 15 * 15).map(|i| [i % 15, i / 15 % 15, i / 225]).collect();
-        let mesh = trace_surface(&grid, &seeds, &InsideTest::new(inside), &Silent).unwrap();
+        let mesh = trace_surface(&grid, &seeds, &InsideTest(inside), &Silent).unwrap();
         assert!(mesh.triangles.len() > 5_000);
         euler_number(&mesh);
     }
@@ -281,7 +264,7 @@ mod tests {
     fn surfaces_too_large_for_the_keys_are_refused() {
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
         let cell = [LIMIT, 0, 0];
-        let all = InsideTest::new(|_, _, (): &mut ()| true);
+        let all = InsideTest(|_| true);
         assert_eq!(trace_surface(&grid, &[cell], &all, &Silent), Err(TraceError::TooFine));
     }
 }

@@ -2,18 +2,18 @@
 mod components;
 mod level;
 mod samples;
+mod sides;
 mod trim;
 
 pub use level::suggested_level;
 
 use crate::data::{Cancelled, Lattice, LatticeError, Monitor, Shape, SurfaceMesh};
 use crate::estimate::{EstimateError, roughness};
-use crate::levelset::{
-    At, InsideTest, SurfaceGrid, TraceError, cells_of_points, cells_of_shape, trace_surface,
-};
+use crate::levelset::{SurfaceGrid, TraceError, cells_of_points, cells_of_shape, trace_surface};
 use crate::math::{Vec3, area_vector};
-use crate::winding::{FieldError, Scratch, WindingField};
+use crate::winding::{FieldError, WindingField};
 use samples::Samples;
+use sides::Sides;
 use trim::Reach;
 
 /// How a surface is traced.
@@ -67,9 +67,17 @@ impl From<FieldError> for SurfaceError {
     fn from(error: FieldError) -> SurfaceError {
         match error {
             FieldError::Lattice(lattice) => lattice.into(),
-            FieldError::Cancelled(cancelled) => cancelled.into(),
-            FieldError::OutOfMemory(out_of_memory) => TraceError::from(out_of_memory).into(),
+            error => trace_error(error).into(),
         }
+    }
+}
+
+/// Why scattered points have no values.
+fn trace_error(error: FieldError) -> TraceError {
+    match error {
+        FieldError::Cancelled(cancelled) => cancelled.into(),
+        FieldError::OutOfMemory(out_of_memory) => out_of_memory.into(),
+        FieldError::Lattice(_) => unreachable!("no lattice was asked for"),
     }
 }
 
@@ -100,7 +108,11 @@ pub fn extract(
         return Err(SurfaceError::BadLevel(level));
     }
     let mut mesh = match field.shape() {
-        Shape::Soup(_) => trace_soup(field, &grid, level, monitor)?,
+        Shape::Soup(_) => {
+            field.prepare_single_points();
+            let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
+            trace_surface(&grid, &seeds, &Sides { field, level }, monitor)?
+        }
         Shape::Cloud(cloud) => {
             let seeds = cells_of_points(cloud.points(), grid.origin, Vec3::splat(grid.spacing));
             let reach = config.trim.map(|trim| Reach::new(cloud, trim, monitor)).transpose()?;
@@ -127,21 +139,6 @@ fn check(shape: &Shape, config: &SurfaceConfig) -> Result<(), SurfaceError> {
         (Shape::Soup(_), Some(_)) => Err(SurfaceError::TrimmedSoup),
         _ => Ok(()),
     }
-}
-
-fn trace_soup(
-    field: &WindingField,
-    grid: &SurfaceGrid,
-    level: f64,
-    monitor: &dyn Monitor,
-) -> Result<SurfaceMesh, SurfaceError> {
-    let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
-    field.prepare_single_points();
-    let inside = |p: Vec3, at: At, scratch: &mut Scratch| match at {
-        At::Node => field.is_above(p, level, scratch),
-        At::Edge => field.is_nearly_above(p, level, scratch),
-    };
-    Ok(trace_surface(grid, &seeds, &InsideTest::new(inside), monitor)?)
 }
 
 /// Edge of a cell of a cloud, in distances between its points.

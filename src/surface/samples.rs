@@ -5,7 +5,7 @@ use crate::data::{BLOCK, Monitor, fill_in_blocks};
 use crate::levelset::{Edge, LevelSet, TraceError, find_roots};
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{Cells, Targets};
-use crate::winding::{FieldError, WindingField};
+use crate::winding::WindingField;
 
 /// Largest error of w.
 const TOLERANCE: f64 = 1e-2;
@@ -23,11 +23,7 @@ pub struct Samples<'a> {
 impl Samples<'_> {
     fn at(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
         let found = self.field.evaluate_targets(&InOrder(points), points.len(), TOLERANCE, monitor);
-        let mut values = found.map_err(|error| match error {
-            FieldError::Cancelled(cancelled) => TraceError::Cancelled(cancelled),
-            FieldError::OutOfMemory(out_of_memory) => TraceError::OutOfMemory(out_of_memory),
-            FieldError::Lattice(_) => unreachable!("no lattice was asked for"),
-        })?;
+        let mut values = found.map_err(super::trace_error)?;
         values.iter_mut().for_each(|w| *w -= self.level);
         Ok(values)
     }

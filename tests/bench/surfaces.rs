@@ -4,6 +4,7 @@
 //! surfaces ours    MODEL [--points N] [--noise S] [--resolution N] [--output FILE]   samples, makes a surface, compares
 //! surfaces cloud   MODEL --output FILE [--points N] [--noise S]    the same samples as raw f64: point, normal
 //! surfaces compare MODEL FILE                                      a surface that another program made of them
+//! surfaces soup    MODEL [--resolution N]                          the time that a surface of the model itself takes
 //! ```
 //! Noise is a standard deviation along each axis, in thousandths of the diagonal. Prints JSON: times in seconds; distances in
 //! percent of the diagonal: `chamfer` is between 200,000 samples of either surface, `floor` that between two such samplings
@@ -40,8 +41,9 @@ fn main() {
             let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
             std::fs::write(options.0["output"].as_str(), bytes).expect("the cloud can be written");
         }
+        "soup" => soup(&model, &options),
         "compare" => println!("{{{}}}", compare(&model, &read(&file.expect("a file")))),
-        _ => panic!("unknown job '{job}': ours, cloud and compare are known"),
+        _ => panic!("unknown job '{job}': ours, cloud, compare and soup are known"),
     }
 }
 
@@ -100,6 +102,20 @@ fn ours(model: &TriangleSoup, options: &Options) {
     println!(
         "{{{times}\"vertices\": {vertices}, \"vertexNormals\": {normals:.5}, {}}}",
         compare(model, &soup)
+    );
+}
+
+fn soup(model: &TriangleSoup, options: &Options) {
+    let resolution = options.number("resolution").map(|n| n as usize);
+    let start = Instant::now();
+    let field = WindingField::new(model.clone(), FieldConfig::default());
+    let built = start.elapsed().as_secs_f64();
+    let config = SurfaceConfig { resolution, ..SurfaceConfig::default() };
+    let mesh = extract(&field, &config, &Silent).expect("nothing cancels");
+    let surface = start.elapsed().as_secs_f64() - built;
+    let (triangles, volume) = (mesh.triangles.len(), mesh.volume());
+    println!(
+        "{{\"field\": {built:.3}, \"surface\": {surface:.3}, \"triangles\": {triangles}, \"volume\": {volume:.6}}}"
     );
 }
 
