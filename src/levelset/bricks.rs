@@ -9,8 +9,8 @@ use rustc_hash::FxHashMap;
 
 /// Nodes of a brick: a bit for each in its masks, x fastest.
 const NODES: usize = 64;
-/// Bricks whose nodes are asked for together: what is asked for takes 6 MB.
-const BRICKS_AT_ONCE: usize = 4096;
+/// Bricks whose nodes are asked for together: what is asked for takes 24 MB.
+const BRICKS_AT_ONCE: usize = 1 << 14;
 /// Coordinates of nodes stay within ±2¹⁹, so that three of them fit one key.
 pub(super) const LIMIT: i32 = 1 << 19;
 /// The cells of a brick that reach into the next one along each axis.

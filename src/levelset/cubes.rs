@@ -66,7 +66,7 @@ pub trait LevelSet {
 }
 
 /// Edges that are asked for together.
-const EDGES_AT_ONCE: usize = 1 << 17;
+const EDGES_AT_ONCE: usize = 1 << 18;
 
 /// Traces a level set through all cells connected to a seed. Every vertex lies on an edge of the grid; triangles are
 /// counter-clockwise seen from outside. The surface is manifold, and closed unless the function has no value somewhere.

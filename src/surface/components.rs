@@ -25,8 +25,8 @@ impl Sets {
     }
 }
 
-/// Leaves out the pieces, triangles that share vertices, with less than a share of the largest one's area.
-pub fn keep_large(mesh: &mut SurfaceMesh, share: f64) {
+/// Leaves out the pieces, triangles that share vertices, with less area than `least(the largest one's)`.
+pub fn keep_large(mesh: &mut SurfaceMesh, least: impl Fn(f64) -> f64) {
     let mut sets = Sets::new(mesh.positions.len());
     for [a, b, c] in &mesh.triangles {
         sets.join(*a, *b);
@@ -37,7 +37,7 @@ pub fn keep_large(mesh: &mut SurfaceMesh, share: f64) {
         let area = area_vector(t.map(|v| mesh.positions[v as usize])).length();
         areas[sets.find(t[0]) as usize] += area;
     }
-    let least = share * areas.iter().copied().fold(0.0, f64::max);
+    let least = least(areas.iter().copied().fold(0.0, f64::max));
     keep_triangles(mesh, |t| areas[sets.find(t[0]) as usize] >= least);
 }
 
@@ -105,11 +105,11 @@ mod tests {
         let positions = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1], [5.0, 5.0], [9.0, 5.0], [5.0, 9.0], [9.0, 9.0]];
         let all = mesh(&positions, &[[0, 1, 2], [3, 4, 5], [4, 6, 5]]);
         let mut few = all.clone();
-        keep_large(&mut few, 1e-3);
+        keep_large(&mut few, |largest| 1e-3 * largest);
         assert_eq!(few.triangles, [[0, 1, 2], [1, 3, 2]]);
         assert_eq!((few.positions[3], few.normals.len()), (Vec3::new(9.0, 9.0, 0.0), 4));
         let mut same = all.clone();
-        keep_large(&mut same, 1e-4);
+        keep_large(&mut same, |largest| 1e-4 * largest);
         assert_eq!(same, all);
     }
 

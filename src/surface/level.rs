@@ -3,6 +3,7 @@ use crate::math::{area_vector, barycentre};
 use crate::treecode::PointTargets;
 use crate::winding::{Accuracy, FieldError, WindingField};
 
+const HALF: f64 = 0.5;
 /// Tolerance of the winding numbers of which the level is the median.
 const TOLERANCE: f64 = 1e-2;
 
@@ -10,10 +11,10 @@ const TOLERANCE: f64 = 1e-2;
 /// numbers at the points of a cloud or at the barycentres of a soup's triangles. They are principal values: the point or the
 /// triangle itself contributes nothing, so that w is the mean of both its sides.
 ///
-/// It is 1/2 for closed surfaces, and less the less of one there is: the solid angle that a half sphere has as seen from its own
-/// points is less than that of a whole one. At that level the surface passes through the points, which at 1/2 it would leave
-/// towards its opening's other side. The median, as two points that nearly coincide have values without bounds. 1/2 if there
-/// is nothing with an area.
+/// It is about 1/2 for closed surfaces, somewhat less for clouds where they are thin or hollow. It is less the less of a closed
+/// surface there is: an open scan takes up less of the solid angle around its own points. At that level the surface passes through
+/// the points; at 1/2 it would lie inside of them. It is never above 1/2: parts within others have 3/2. The median and not the
+/// mean, as two points that nearly coincide have values without bounds. 1/2 if there is nothing with an area.
 ///
 /// # Errors
 /// If and only if `monitor` cancels or memory does not suffice.
@@ -30,13 +31,12 @@ pub fn suggested_level(field: &WindingField, monitor: &dyn Monitor) -> Result<f6
             (values, (0..soup.len()).map(|t| area_vector(soup.corners(t)).length()).collect())
         }
     };
-    if std::env::var("MEAN").is_ok() {
         let (s, a) =
             values.iter().zip(&areas).fold((0.0, 0.0), |(s, t), (v, a)| (s + v.clamp(-0.5, 1.5) * a, t + a));
         let (s2, _) = values.iter().zip(&areas).fold((0.0, 0.0), |(s, t), (v, a)| (s + v * a, t + a));
         eprintln!("clamped mean {} mean {} median {:?}", s / a, s2 / a, median(&values, &areas));
     }
-    Ok(median(&values, &areas).unwrap_or(0.5))
+    Ok(median(&values, &areas).map_or(HALF, |median| median.min(HALF)))
 }
 
 /// The value below which half of the weight lies.

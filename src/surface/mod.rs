@@ -12,21 +12,24 @@ use crate::estimate::{EstimateError, roughness};
 use crate::levelset::{SurfaceGrid, TraceError, cells_of_points, cells_of_shape, trace_surface};
 use crate::math::{Vec3, area_vector};
 use crate::winding::{FieldError, WindingField};
+use components::keep_large;
 use samples::Samples;
 use sides::Sides;
 use trim::Reach;
 
 /// How a surface is traced.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceConfig {
     /// Cells along the longest side of the bounds; used when `spacing` is not given. Where neither is, soups get
     /// [`SurfaceConfig::SOUP_RESOLUTION`], and clouds cells as large as the distances of their points allow.
     pub resolution: Option<usize>,
     /// Edge of a cell in millimetres.
     pub spacing: Option<f64>,
-    /// The winding number on the surface; where it is not given, [`suggested_level`].
+    /// The winding number on the surface; where it is not given, [`suggested_level`] for clouds, 1/2 for soups, whose triangles the
+    /// surface passes through at any level near that.
     pub level: Option<f64>,
-    /// Pieces of the surface that have less than this share of the largest one's area are left out.
+    /// Pieces of the surface that have less than this share of the largest one's area are left out; 0 keeps all. Where it is not
+    /// given, soups keep all, and clouds those that have the area of ten points: what floats around noisy clouds is smaller.
     pub min_component: Option<f64>,
     /// Surface that is farther from the nearest point of a cloud than this many of the distances between points there is left out: it
     /// is then open, but still manifold.
@@ -36,12 +39,6 @@ pub struct SurfaceConfig {
 impl SurfaceConfig {
     /// Cells along the longest side of a soup.
     pub const SOUP_RESOLUTION: usize = 64;
-}
-
-impl Default for SurfaceConfig {
-    fn default() -> Self {
-        SurfaceConfig { resolution: None, spacing: None, level: Some(0.5), min_component: None, trim: None }
-    }
 }
 
 /// Why a surface could not be made.
@@ -100,9 +97,10 @@ pub fn extract(
 ) -> Result<SurfaceMesh, SurfaceError> {
     check(field.shape(), config)?;
     let grid = grid(field, config, monitor)?;
-    let level = match config.level {
-        Some(level) => level,
-        None => suggested_level(field, monitor)?,
+    let level = match (config.level, field.shape()) {
+        (Some(level), _) => level,
+        (None, Shape::Soup(_)) => HALF,
+        (None, Shape::Cloud(_)) => suggested_level(field, monitor)?,
     };
     if !level.is_finite() || level == 0.0 && config.trim.is_none() {
         return Err(SurfaceError::BadLevel(level));
@@ -124,8 +122,13 @@ pub fn extract(
             mesh
         }
     };
-    if let Some(share) = config.min_component {
-        components::keep_large(&mut mesh, share);
+    match (config.min_component, field.shape()) {
+        (Some(share), _) => keep_large(&mut mesh, |largest| share * largest),
+        (None, Shape::Soup(_)) => {}
+        (None, Shape::Cloud(cloud)) => {
+            let least = POINTS_OF_PIECE * area(field.shape()) / cloud.len() as f64;
+            keep_large(&mut mesh, |largest| least.min(largest));
+        }
     }
     Ok(mesh)
 }
@@ -141,8 +144,14 @@ fn check(shape: &Shape, config: &SurfaceConfig) -> Result<(), SurfaceError> {
     }
 }
 
-/// Edge of a cell of a cloud, in distances between its points.
+const HALF: f64 = 0.5;
+/// Edge of a cell of a cloud, in distances between its points. On 35,000 and 100,000 points of four models, 1 leaves the surface up to
+/// a quarter farther from the truth than Poisson's of depth 8, 0.85 as far, 0.7 nearer on all of them, and 0.5 not much nearer still for
+/// twice the triangles.
 const CELL_OF_CLOUD: f64 = 0.7;
+/// Points whose area a piece of a cloud's surface has at least. With noise of half to all of the spacing, nine in ten of the floating
+/// pieces are smaller than 3, all but a few smaller than 10.
+const POINTS_OF_PIECE: f64 = 10.0;
 /// Nodes that are sampled for each square of a cell's edge: bricks of 64 that a surface crosses askew.
 const NODES_PER_SQUARE: f64 = 12.0;
 
@@ -163,7 +172,7 @@ fn grid(
         (_, Some(resolution), _) => longest / resolution as f64,
         (_, None, Shape::Soup(_)) => longest / SurfaceConfig::SOUP_RESOLUTION as f64,
         (_, None, Shape::Cloud(cloud)) => match roughness(cloud.points(), monitor) {
-            Ok(found) => std::env::var("CELL").map_or(CELL_OF_CLOUD, |c| c.parse().unwrap()) * found.spacing,
+            Ok(found) => CELL_OF_CLOUD * found.spacing,
             Err(EstimateError::Cancelled(cancelled)) => return Err(cancelled.into()),
             Err(_) => return Err(LatticeError::EmptyBounds.into()),
         },

@@ -209,12 +209,11 @@ pub struct SurfaceOptions {
 
 impl SurfaceOptions {
     pub fn config(&self) -> SurfaceConfig {
-        let default = SurfaceConfig::default();
         SurfaceConfig {
             resolution: Some(self.resolution.unwrap_or(SurfaceConfig::SOUP_RESOLUTION)),
             spacing: self.spacing,
-            level: self.level.or(default.level),
-            ..default
+            level: Some(self.level.unwrap_or(0.5)),
+            ..SurfaceConfig::default()
         }
     }
 }

@@ -6,7 +6,9 @@
 //! surfaces compare MODEL FILE                                      a surface that another program made of them
 //! surfaces soup    MODEL [--resolution N]                          the time that a surface of the model itself takes
 //! ```
-//! Noise is a standard deviation along each axis, in thousandths of the diagonal. Prints JSON: times in seconds; distances in
+//! Noise is a standard deviation along each axis, in thousandths of the diagonal. Prints JSON: times in seconds, that of all
+//! processors together, the growth of memory while the
+//! surface is made; distances in
 //! percent of the diagonal: `chamfer` is between 200,000 samples of either surface, `floor` that between two such samplings
 //! of the truth, `off` the mean distance of samples from the plane of the other surface at its nearest sample.
 use fast_winding::PointCloud;
@@ -32,6 +34,7 @@ fn main() {
     let file = (rest.len() % 2 == 1).then(|| rest.remove(0));
     let options = rest.chunks(2).map(|o| (o[0].trim_start_matches("--").to_owned(), o[1].clone())).collect();
     let options = Options(options);
+    let model = if options.0.contains_key("half") { half(&model) } else { model };
     match job.as_str() {
         "ours" => ours(&model, &options),
         "cloud" => {
@@ -45,6 +48,14 @@ fn main() {
         "compare" => println!("{{{}}}", compare(&model, &read(&file.expect("a file")))),
         _ => panic!("unknown job '{job}': ours, cloud, compare and soup are known"),
     }
+}
+
+/// The triangles below the middle of the x axis: an open scan.
+fn half(model: &TriangleSoup) -> TriangleSoup {
+    let middle = Aabb::around(model.positions().iter().copied()).center().x;
+    let below = |t: &&[u32; 3]| t.iter().all(|v| model.positions()[*v as usize].x < middle);
+    let kept = model.triangles().iter().filter(below).copied().collect();
+    TriangleSoup::new(model.positions().to_vec(), kept).expect("the indices are those of the model")
 }
 
 struct Options(HashMap<String, String>);
@@ -75,20 +86,23 @@ fn ours(model: &TriangleSoup, options: &Options) {
         PointCloud::cleaned(samples.points, Some(samples.normals), None).expect("they are as many");
     let config = SurfaceConfig {
         resolution: options.number("resolution").map(|n| n as usize),
-        level: options.number("level").or(Some(0.5)).filter(|level| *level != 0.0),
+        level: options.number("level"),
         min_component: options.number("min-component"),
         trim: options.number("trim"),
         ..SurfaceConfig::default()
     };
-    let start = Instant::now();
+    let (start, began) = (Instant::now(), processor_time());
     let oriented = complete(&cloud, &EstimateConfig::default(), &Silent).expect("the cloud has normals");
     let areas = start.elapsed().as_secs_f64();
     let field = WindingField::new(oriented, FieldConfig::default());
     let built = start.elapsed().as_secs_f64();
+    let before = resident("VmRSS");
     let mesh = extract(&field, &config, &Silent).expect("nothing cancels");
+    let megabytes = 1e-6 * (resident("VmHWM") - before);
     let total = start.elapsed().as_secs_f64();
+    let processors = processor_time() - began;
     let times = format!(
-        "\"areas\": {areas:.3}, \"field\": {:.3}, \"surface\": {:.3}, \"total\": {total:.3}, ",
+        "\"areas\": {areas:.3}, \"field\": {:.3}, \"surface\": {:.3}, \"total\": {total:.3}, \"processors\": {processors:.2}, \"megabytes\": {megabytes:.0}, ",
         built - areas,
         total - built
     );
@@ -103,6 +117,26 @@ fn ours(model: &TriangleSoup, options: &Options) {
         "{{{times}\"vertices\": {vertices}, \"vertexNormals\": {normals:.5}, {}}}",
         compare(model, &soup)
     );
+}
+
+/// Bytes of this process in memory now, or most of them since the last question; 0 where the system does not tell.
+fn resident(what: &str) -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    // Forgets the highest so far.
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+    let line = status.lines().find(|line| line.starts_with(what)).unwrap_or_default();
+    line.split_whitespace()
+        .nth(1)
+        .and_then(|kilobytes| kilobytes.parse().ok())
+        .map_or(0.0, |k: f64| 1024.0 * k)
+}
+
+/// Seconds that all processors together spent on this process; 0 where the system does not tell.
+fn processor_time() -> f64 {
+    const TICKS_PER_SECOND: f64 = 100.0;
+    let status = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let words = status.rsplit(')').next().unwrap_or_default().split_whitespace();
+    words.skip(11).take(2).filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / TICKS_PER_SECOND
 }
 
 fn soup(model: &TriangleSoup, options: &Options) {
