@@ -31,11 +31,6 @@ pub fn suggested_level(field: &WindingField, monitor: &dyn Monitor) -> Result<f6
             (values, (0..soup.len()).map(|t| area_vector(soup.corners(t)).length()).collect())
         }
     };
-        let (s, a) =
-            values.iter().zip(&areas).fold((0.0, 0.0), |(s, t), (v, a)| (s + v.clamp(-0.5, 1.5) * a, t + a));
-        let (s2, _) = values.iter().zip(&areas).fold((0.0, 0.0), |(s, t), (v, a)| (s + v * a, t + a));
-        eprintln!("clamped mean {} mean {} median {:?}", s / a, s2 / a, median(&values, &areas));
-    }
     Ok(median(&values, &areas).map_or(HALF, |median| median.min(HALF)))
 }
 
