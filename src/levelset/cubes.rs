@@ -1,5 +1,5 @@
 //! Marching cubes by continuation: a closed, manifold, outward-oriented surface of a level set.
-use super::CLEARANCE;
+use super::{Blur, CLEARANCE};
 use super::bricks::{Around, Bricks, LIMIT, bits, corner_of};
 use super::cube_cases::{EDGES, TRIANGLES};
 use super::seeds::Cell;
@@ -44,12 +44,23 @@ impl Edge {
     pub fn at(&self, t: f64) -> Vec3 {
         self.start + t * self.along
     }
+
+    /// Where the line through the values at both ends vanishes, from 0 to 1.
+    pub fn interpolated(&self) -> f64 {
+        let [start, end] = self.ends.map(f64::from);
+        if start == end { 0.5 } else { (start / (start - end)).clamp(0.0, 1.0) }
+    }
 }
 
 /// What is traced: where a function of space changes its sign.
 pub trait LevelSet {
     /// Whether the function is best asked for at 64 nodes that lie close together, also where not all of them are needed.
     fn takes_bricks(&self) -> bool;
+
+    /// How its values are to be smoothed before they are looked at, if they are; such a function takes bricks.
+    fn blur(&self) -> Option<Blur> {
+        None
+    }
 
     /// The function at some points: positive or zero inside, negative outside. NaN where the level set is not to be traced:
     /// it is then open there.

@@ -1,5 +1,6 @@
 //! Level sets by continuation: from cells that hold geometry to their neighbours, as long as the level set goes on
 //! (Wyvill et al. 1986). Knows grids and inside tests, nothing of where they come from.
+mod blur;
 mod bricks;
 mod cube_cases;
 mod cubes;
@@ -7,6 +8,7 @@ mod roots;
 mod seeds;
 mod squares;
 
+pub use blur::Blur;
 pub use cubes::{Edge, LevelSet, SurfaceGrid, TraceError, trace_surface};
 pub use roots::find_roots;
 pub use seeds::{Cell, cells_of_point, cells_of_points, cells_of_shape, cells_of_triangle};

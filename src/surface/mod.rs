@@ -114,7 +114,7 @@ pub fn extract(
         Shape::Cloud(cloud) => {
             let seeds = cells_of_points(cloud.points(), grid.origin, Vec3::splat(grid.spacing));
             let reach = config.trim.map(|trim| Reach::new(cloud, trim, monitor)).transpose()?;
-            let samples = Samples { field, level, reach: reach.as_ref(), spacing: grid.spacing };
+            let samples = Samples { field, level, reach: reach.as_ref(), spacing: grid.spacing, blur: std::env::var("BLUR").ok().map(|b| crate::levelset::Blur::new(b.parse().unwrap())) };
             let mut mesh = trace_surface(&grid, &seeds, &samples, monitor)?;
             if let Some(reach) = &reach {
                 reach.trim(&mut mesh, monitor)?;
@@ -172,7 +172,7 @@ fn grid(
         (_, Some(resolution), _) => longest / resolution as f64,
         (_, None, Shape::Soup(_)) => longest / SurfaceConfig::SOUP_RESOLUTION as f64,
         (_, None, Shape::Cloud(cloud)) => match roughness(cloud.points(), monitor) {
-            Ok(found) => CELL_OF_CLOUD * found.spacing,
+            Ok(found) => std::env::var("CELL").map_or(CELL_OF_CLOUD, |c| c.parse().unwrap()) * found.spacing,
             Err(EstimateError::Cancelled(cancelled)) => return Err(cancelled.into()),
             Err(_) => return Err(LatticeError::EmptyBounds.into()),
         },

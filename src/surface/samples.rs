@@ -2,13 +2,16 @@
 use super::trim::Reach;
 use crate::bvh::Nearest;
 use crate::data::{BLOCK, Monitor, fill_in_blocks};
-use crate::levelset::{Edge, LevelSet, TraceError, find_roots};
+use crate::levelset::{Blur, Edge, LevelSet, TraceError, find_roots};
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{Cells, Targets};
 use crate::winding::WindingField;
 
 /// Largest error of w.
 const TOLERANCE: f64 = 3e-2;
+
+/// Values beyond this are cut off before they are smoothed: w changes by 1 across a surface.
+const MOST: f32 = 0.5;
 
 /// The field of a cloud, less a level.
 pub struct Samples<'a> {
@@ -18,6 +21,7 @@ pub struct Samples<'a> {
     pub reach: Option<&'a Reach>,
     /// Between nodes.
     pub spacing: f64,
+    pub blur: Option<Blur>,
 }
 
 impl Samples<'_> {
@@ -57,14 +61,26 @@ impl LevelSet for Samples<'_> {
         true
     }
 
+    fn blur(&self) -> Option<Blur> {
+        self.blur
+    }
+
     fn values(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f32>, TraceError> {
-        match self.reach {
-            Some(reach) => self.within(reach, points, monitor),
-            None => Ok(self.at(points, monitor)?.into_iter().map(|w| w as f32).collect()),
+        let mut values: Vec<f32> = match self.reach {
+            Some(reach) => self.within(reach, points, monitor)?,
+            None => self.at(points, monitor)?.into_iter().map(|w| w as f32).collect(),
+        };
+        if self.blur.is_some() {
+            // Those next to a point tell nothing of what is around.
+            values.iter_mut().for_each(|value| *value = value.clamp(-MOST, MOST));
         }
+        Ok(values)
     }
 
     fn crossings(&self, edges: &[Edge], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
+        if self.blur.is_some() {
+            return Ok(edges.iter().map(Edge::interpolated).collect());
+        }
         find_roots(edges, &|points, part: &dyn Monitor| self.at(points, part), monitor)
     }
 }
