@@ -240,6 +240,44 @@ fn a_piece_that_passes_no_points_cell_is_found() {
     assert!(mesh.positions.len() > 10_000 && most < 1.0 + 0.09 && least > 0.8, "{least} to {most}");
 }
 
+/// A sphere cloud whose points are moved along their normals by up to `noise` either way.
+fn noisy_sphere(count: usize, noise: f64) -> OrientedCloud {
+    let sphere = sphere_cloud(count);
+    let mut next = random(3);
+    let moved = sphere.points().iter().map(|p| (1.0 + noise * (2.0 * next() - 1.0)) * *p).collect();
+    OrientedCloud::new(moved, sphere.normals().to_vec(), sphere.areas().to_vec()).unwrap()
+}
+
+#[test]
+fn smoothing_takes_noise_away_and_leaves_curved_surfaces_in_place() {
+    // Points are 0.04 apart; noise is up to 0.03.
+    let surface = |noise: f64, smoothing: Option<f64>| {
+        let mesh =
+            surface_of(noisy_sphere(8000, noise), &SurfaceConfig { smoothing, ..SurfaceConfig::default() });
+        let radii: Vec<f64> = mesh.positions.iter().map(|p| p.length()).collect();
+        let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+        let spread = radii.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / radii.len() as f64;
+        let tilt = mesh.positions.iter().zip(&mesh.normals).map(|(p, n)| p.normalize().dot(*n)).sum::<f64>();
+        (topology(&mesh), mean, spread.sqrt(), tilt / radii.len() as f64)
+    };
+    let (rough, smooth) = (surface(0.03, None), surface(0.03, Some(1.0)));
+    assert_eq!(smooth.0, (2, 0));
+    assert!(smooth.2 < 0.6 * rough.2, "{smooth:?} {rough:?}");
+    assert!(1.0 - smooth.3 < 0.2 * (1.0 - rough.3), "{smooth:?} {rough:?}");
+    // A Gaussian alone would move it by its variance, 0.0016.
+    let clean = surface(0.0, Some(1.0));
+    assert!((clean.1 - 1.0).abs() < 4e-4, "{clean:?}");
+}
+
+#[test]
+fn smoothed_surfaces_are_trimmed_too() {
+    let half = part(&noisy_sphere(8000, 0.01), |p| p.z > 0.0);
+    let config = SurfaceConfig { trim: Some(2.0), smoothing: Some(1.0), ..SurfaceConfig::default() };
+    let (euler, open) = topology(&surface_of(half, &config));
+    assert_eq!(euler, 1);
+    assert!(open > 50, "{open}");
+}
+
 #[test]
 fn options_out_of_range_are_told_apart() {
     let cloud = field(sphere_cloud(200));
@@ -259,7 +297,12 @@ fn options_out_of_range_are_told_apart() {
     assert!(matches!(too_many, LatticeError::TooMany(_)), "{too_many}");
     let soup = field(cube(1.0));
     let trimmed = SurfaceConfig { trim: Some(1.0), ..default };
-    assert_eq!(extract(&soup, &trimmed, &Silent), Err(SurfaceError::TrimmedSoup));
+    assert_eq!(extract(&soup, &trimmed, &Silent), Err(SurfaceError::OnlyOfClouds("trimmed")));
+    let smooth = SurfaceConfig { smoothing: Some(1.0), ..default };
+    assert_eq!(extract(&soup, &smooth, &Silent), Err(SurfaceError::OnlyOfClouds("smoothed")));
+    assert_eq!(with(SurfaceConfig { smoothing: Some(-1.0), ..default }), SurfaceError::BadSmoothing(-1.0));
+    let narrow = with(SurfaceConfig { spacing: Some(0.01), ..smooth });
+    assert!(matches!(narrow, SurfaceError::SmallCells { spacing: 0.01, .. }), "{narrow}");
     let stop = |fraction: f64, stage: &str| !(stage == "surface vertices" && fraction > 0.0);
     let cancelled = SurfaceError::Trace(TraceError::Cancelled(fast_winding::data::Cancelled));
     assert_eq!(extract(&cloud, &default, &stop), Err(cancelled));

@@ -1,16 +1,14 @@
 //! The cells that a level set passes through, found by continuation. Nodes are kept in bricks of 4 × 4 × 4, which lie only where
 //! it passes: memory grows with the surface, not with the space around it.
 use super::seeds::Cell;
-use super::{Blur, Edge, LevelSet, SurfaceGrid, TraceError};
+use super::{Edge, LevelSet, SurfaceGrid, TraceError};
 use crate::bvh::morton_code;
-use crate::data::{Monitor, map_items, sort_keyed};
+use crate::data::{Monitor, sort_keyed};
 use crate::math::{Aabb, Vec3};
 use rustc_hash::FxHashMap;
 
 /// Nodes of a brick: a bit for each in its masks, x fastest.
-const NODES: usize = 64;
-/// Bricks whose nodes are asked for together: what is asked for takes 24 MB.
-const BRICKS_AT_ONCE: usize = 1 << 14;
+pub(super) const NODES: usize = 64;
 /// Coordinates of nodes stay within ±2¹⁹, so that three of them fit one key.
 pub(super) const LIMIT: i32 = 1 << 19;
 /// The cells of a brick that reach into the next one along each axis.
@@ -22,16 +20,16 @@ pub(super) struct Brick {
     /// Its lowest node.
     pub first: Cell,
     /// Nodes that were asked for, those still to be asked for, those inside, and those without a value.
-    known: u64,
-    wanted: u64,
-    inside: u64,
-    void: u64,
+    pub known: u64,
+    pub wanted: u64,
+    pub inside: u64,
+    pub void: u64,
     /// Cells still to be looked at, those that were, and those that the level set passes through.
     pending: u64,
     visited: u64,
     pub active: u64,
     /// Whether it has values that are not smoothed.
-    is_sampled: bool,
+    pub is_sampled: bool,
 }
 
 #[derive(Default)]
@@ -39,10 +37,10 @@ pub(super) struct Bricks {
     places: FxHashMap<u64, u32>,
     pub bricks: Vec<Brick>,
     /// Of the nodes, brick by brick; and before they are smoothed, if they are.
-    values: Vec<f32>,
-    sharp: Vec<f32>,
+    pub values: Vec<f32>,
+    pub sharp: Vec<f32>,
     /// Bricks with nodes to be asked for.
-    requests: Vec<u32>,
+    pub requests: Vec<u32>,
 }
 
 /// The bricks that the corners of a brick's cells lie in: itself, and those after it along the axes whose bits are set.
@@ -68,7 +66,7 @@ pub(super) fn corner_of(cell: usize, corner: usize) -> (usize, usize) {
     (brick, node)
 }
 
-fn node_of(first: Cell, bit: usize) -> Cell {
+pub(super) fn node_of(first: Cell, bit: usize) -> Cell {
     [0, 1, 2].map(|axis| first[axis] + (bit >> (2 * axis) & 3) as i32)
 }
 
@@ -131,7 +129,7 @@ impl Bricks {
     }
 
     /// The brick of a node and the node's bit there.
-    fn place(&mut self, node: Cell) -> Result<(u32, usize), TraceError> {
+    pub fn place(&mut self, node: Cell) -> Result<(u32, usize), TraceError> {
         if !node.iter().all(|c| (-LIMIT + 8..LIMIT - 8).contains(c)) {
             return Err(TraceError::TooFine);
         }
@@ -222,86 +220,6 @@ impl Bricks {
             for neighbour in neighbours_crossed(node_of(first, cell), case) {
                 self.visit_later(neighbour, open)?;
             }
-        }
-        Ok(())
-    }
-
-    /// Asks for the values that were requested.
-    fn sample(
-        &mut self,
-        grid: &SurfaceGrid,
-        level_set: &dyn LevelSet,
-        monitor: &dyn Monitor,
-    ) -> Result<(), TraceError> {
-        let mut requests = std::mem::take(&mut self.requests);
-        self.sort(&mut requests);
-        if let Some(blur) = level_set.blur() {
-            return self.sample_smoothly(&requests, &blur, grid, level_set, monitor);
-        }
-        for some in requests.chunks(BRICKS_AT_ONCE) {
-            let mut points = Vec::new();
-            for &place in some {
-                let brick = &self.bricks[place as usize];
-                points.extend(bits(brick.wanted).map(|bit| grid.position(node_of(brick.first, bit))));
-            }
-            let mut values = level_set.values(&points, monitor)?.into_iter();
-            some.iter().for_each(|place| self.learn(*place, &mut values));
-        }
-        Ok(())
-    }
-
-    /// Takes the values of the wanted nodes of a brick.
-    fn learn(&mut self, place: u32, values: &mut dyn Iterator<Item = f32>) {
-        let brick = &mut self.bricks[place as usize];
-        for (bit, value) in bits(brick.wanted).zip(values) {
-            brick.inside |= u64::from(value.is_sign_positive()) << bit;
-            brick.void |= u64::from(value.is_nan()) << bit;
-            self.values[place as usize * NODES + bit] = value;
-        }
-        brick.known |= std::mem::take(&mut brick.wanted);
-    }
-
-    /// The same for smoothed values: asks for those of the bricks around too.
-    fn sample_smoothly(
-        &mut self,
-        requests: &[u32],
-        blur: &Blur,
-        grid: &SurfaceGrid,
-        level_set: &dyn LevelSet,
-        monitor: &dyn Monitor,
-    ) -> Result<(), TraceError> {
-        let mut around = Vec::with_capacity(requests.len());
-        let mut missing = Vec::new();
-        for &place in requests {
-            let first = self.bricks[place as usize].first;
-            let mut all = [0; 27];
-            for (k, other) in all.iter_mut().enumerate() {
-                let at = |axis: usize, power: usize| first[axis] + 4 * (k / power % 3) as i32 - 4;
-                *other = self.place([at(0, 1), at(1, 3), at(2, 9)])?.0;
-                if !std::mem::replace(&mut self.bricks[*other as usize].is_sampled, true) {
-                    missing.push(*other);
-                }
-            }
-            around.push(all);
-        }
-        self.sort(&mut missing);
-        self.sharp.resize(self.values.len(), f32::NAN);
-        for some in missing.chunks(BRICKS_AT_ONCE) {
-            let nodes = some.iter().flat_map(|place| {
-                let first = self.bricks[*place as usize].first;
-                (0..NODES).map(move |bit| grid.position(node_of(first, bit)))
-            });
-            let points: Vec<Vec3> = nodes.collect();
-            let values = level_set.values(&points, monitor)?;
-            for (place, values) in some.iter().zip(values.chunks_exact(NODES)) {
-                self.sharp[*place as usize * NODES..][..NODES].copy_from_slice(values);
-            }
-        }
-        let smooth = map_items(requests.len(), |k| {
-            blur.of(&around[k].map(|place| &self.sharp[place as usize * NODES..][..NODES]))
-        });
-        for (place, values) in requests.iter().zip(smooth) {
-            self.learn(*place, &mut values.into_iter());
         }
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! Marching cubes by continuation: a closed, manifold, outward-oriented surface of a level set.
-use super::{Blur, CLEARANCE};
 use super::bricks::{Around, Bricks, LIMIT, bits, corner_of};
 use super::cube_cases::{EDGES, TRIANGLES};
 use super::seeds::Cell;
+use super::{Blur, CLEARANCE};
 use crate::data::{Cancelled, Monitor, OutOfMemory, SurfaceMesh};
 use crate::math::Vec3;
 

@@ -5,6 +5,7 @@ mod bricks;
 mod cube_cases;
 mod cubes;
 mod roots;
+mod sampling;
 mod seeds;
 mod squares;
 

@@ -36,9 +36,11 @@ impl Samples<'_> {
     fn within(&self, reach: &Reach, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f32>, TraceError> {
         let bricks: Vec<&[Vec3]> = points.chunks(BLOCK).collect();
         let mut held = vec![false; bricks.len()];
+        // From a vertex to a corner of its cell, and four cells along each axis to what is smoothed.
+        let margin = self.spacing * if self.blur.is_some() { 9.0 } else { 2.0 };
         let is_held = |k: usize, nearest: &mut Nearest| {
             let bounds = Aabb::around(bricks[k].iter().copied());
-            reach.holds(bounds.center(), 0.5 * bounds.diagonal() + self.spacing, nearest)
+            reach.holds(bounds.center(), 0.5 * bounds.diagonal() + margin, nearest)
         };
         fill_in_blocks(&mut held, is_held, "surface cells", monitor)?;
         let wanted: Vec<Vec3> = bricks

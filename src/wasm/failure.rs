@@ -112,7 +112,9 @@ impl From<SurfaceError> for Failure {
             | SurfaceError::BadLevel(_)
             | SurfaceError::BadShare(_)
             | SurfaceError::BadTrim(_)
-            | SurfaceError::TrimmedSoup => Failure::invalid(&error),
+            | SurfaceError::BadSmoothing(_)
+            | SurfaceError::SmallCells { .. }
+            | SurfaceError::OnlyOfClouds(_) => Failure::invalid(&error),
         }
     }
 }

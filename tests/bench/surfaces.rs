@@ -1,12 +1,12 @@
 //! Surfaces of clouds beside the truth: points with true normals sampled from closed models.
 //!
 //! ```text
-//! surfaces ours    MODEL [--points N] [--noise S] [--resolution N] [--output FILE]   samples, makes a surface, compares
+//! surfaces ours    MODEL [--points N] [--noise S] [--output FILE] [OPTIONS]   samples, makes a surface, compares
 //! surfaces cloud   MODEL --output FILE [--points N] [--noise S]    the same samples as raw f64: point, normal
 //! surfaces compare MODEL FILE                                      a surface that another program made of them
 //! surfaces soup    MODEL [--resolution N]                          the time that a surface of the model itself takes
 //! ```
-//! Noise is a standard deviation along each axis, in thousandths of the diagonal. Prints JSON: times in seconds, that of all
+//! `OPTIONS` are --resolution, --level, --min-component, --trim and --smoothing; `--half 1` leaves half of the model. Noise is a standard deviation along each axis, in thousandths of the diagonal. Prints JSON: times in seconds, that of all
 //! processors together, the growth of memory while the
 //! surface is made; distances in
 //! percent of the diagonal: `chamfer` is between 200,000 samples of either surface, `floor` that between two such samplings
@@ -89,6 +89,7 @@ fn ours(model: &TriangleSoup, options: &Options) {
         level: options.number("level"),
         min_component: options.number("min-component"),
         trim: options.number("trim"),
+        smoothing: options.number("smoothing"),
         ..SurfaceConfig::default()
     };
     let (start, began) = (Instant::now(), processor_time());
