@@ -109,7 +109,7 @@ fn threads_change_no_bit() {
     let soup = without(&torus(1.0, 0.4, 30, 12), |t| t % 9 == 0);
     let coarse = SurfaceConfig { resolution: Some(16), ..SurfaceConfig::default() };
     let (cloud, soup) = (field(cloud), field(soup));
-    let config = SurfaceConfig { trim: Some(3.0), level: None, ..SurfaceConfig::default() };
+    let config = SurfaceConfig { trim: Some(3.0), smoothing: Some(1.0), ..SurfaceConfig::default() };
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {

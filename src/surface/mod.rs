@@ -26,9 +26,8 @@ pub struct SurfaceConfig {
     pub resolution: Option<usize>,
     /// Edge of a cell in millimetres.
     pub spacing: Option<f64>,
-    /// The winding number on the surface; where it is not given, [`suggested_level`] for clouds, but 0.1 at
-    /// least unless they are trimmed, and 1/2 for soups, whose triangles the
-    /// surface passes through at any level near that.
+    /// The winding number on the surface. Where it is not given, [`suggested_level`] for clouds, but 0.1 at least unless they are
+    /// trimmed; 1/2 for soups, whose triangles the surface passes through at any level near that.
     pub level: Option<f64>,
     /// Pieces of the surface that have less than this share of the largest one's area are left out; 0 keeps all. Where it is not
     /// given, soups keep all, and clouds those that have the area of ten points: what floats around noisy clouds is smaller.
@@ -37,8 +36,9 @@ pub struct SurfaceConfig {
     /// distance between points: for noisy clouds, about 1. Cells have to be at least two thirds of it. Their corners' winding numbers
     /// are smoothed, with weights that leave curved surfaces where they are.
     pub smoothing: Option<f64>,
-    /// Surface that is farther from the nearest point of a cloud than this many of the distances between points there is left out: it
-    /// is then open, but still manifold.
+    /// Surface that is farther from the nearest point of a cloud than this many of the distances between points there is left out,
+    /// triangle by triangle, so that rims are jagged. It is then open, but still manifold. 1.5 leaves no holes between points that are
+    /// spaced evenly, 3 none between points drawn at random.
     pub trim: Option<f64>,
 }
 
@@ -104,7 +104,8 @@ const POINTS_OF_PIECE: f64 = 10.0;
 
 /// The surface {w = level}, traced from the cells that hold geometry (Barill et al. 2018, Fig. 9): closed unless it is trimmed,
 /// manifold, oriented outward. Vertices lie where edges of the cells cross it: of soups, where w jumps, by bisection; of clouds, where
-/// it is smooth, by false position on values within 0.01. It may reach beyond the bounds, as the field does.
+/// it is smooth, by false position on values within 0.03, or by interpolation if values are smoothed. It may reach beyond the bounds,
+/// as the field does. Normals are those of the faces around: next to a cloud's points its gradient tells less of the surface.
 ///
 /// # Errors
 /// If and only if the shape is empty, an option is out of range, or the monitor cancels.

@@ -297,7 +297,7 @@ impl WindingField {
     }
 
     /// Winding numbers of a cloud at the targets, which are `count`, by their indices: with a largest error of `tolerance`, 1e-5 or
-    /// more. However few they are, single points are not prepared for. 0 everywhere for a soup.
+    /// more. However few they are, single points are not prepared for. 0 everywhere for a soup, and for a smaller tolerance.
     ///
     /// # Errors
     /// If and only if `monitor` cancels or the values do not fit in memory.
@@ -309,8 +309,8 @@ impl WindingField {
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, FieldError> {
         let mut values = zeroed(count)?;
-        if let Some((many, accuracy)) = self.many_for(Accuracy::Tolerance(tolerance)) {
-            many.add(targets, &accuracy, &mut values, monitor)?;
+        if let (Engine::Cloud(cloud), Some(accuracy)) = (&self.engine, DualAccuracy::within(tolerance)) {
+            cloud.many.add(targets, &accuracy, &mut values, monitor)?;
         }
         Ok(values)
     }

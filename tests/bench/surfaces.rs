@@ -6,11 +6,12 @@
 //! surfaces compare MODEL FILE                                      a surface that another program made of them
 //! surfaces soup    MODEL [--resolution N]                          the time that a surface of the model itself takes
 //! ```
-//! `OPTIONS` are --resolution, --level, --min-component, --trim and --smoothing; `--half 1` leaves half of the model. Noise is a standard deviation along each axis, in thousandths of the diagonal. Prints JSON: times in seconds, that of all
-//! processors together, the growth of memory while the
-//! surface is made; distances in
-//! percent of the diagonal: `chamfer` is between 200,000 samples of either surface, `floor` that between two such samplings
-//! of the truth, `off` the mean distance of samples from the plane of the other surface at its nearest sample.
+//! `OPTIONS` are --resolution, --level, --min-component, --trim and --smoothing, as in `SurfaceConfig`; `--half 1` leaves half of the
+//! model, an open scan. Noise is a standard deviation along each axis, in thousandths of the diagonal.
+//!
+//! Prints JSON: times in seconds, that of all processors together, the growth of memory while the surface is made; distances in
+//! percent of the diagonal: `chamfer` is between 200,000 samples of either surface, `floor` that between two such samplings of the
+//! truth, `excess` the difference, `off` the mean distance of samples from the plane of the other surface at its nearest sample.
 use fast_winding::PointCloud;
 use fast_winding::data::{Silent, SurfaceMesh, TriangleSoup};
 use fast_winding::estimate::{EstimateConfig, complete};

@@ -1,6 +1,6 @@
 """Surfaces of clouds: ours beside Open3D's screened Poisson reconstruction, on the same points and true normals.
 
-    python3 tests/bench/peers/surfaces.py [--rounds 3] [--threads 2] [--noise S] [--quick]
+    python3 tests/bench/peers/surfaces.py [--rounds 3] [--threads 2] [--noise S] [--smoothing D] [--quick]
 
 Clouds are sampled from closed models. Our time includes areas and the field. Distances are in percent of the model's diagonal, as
 tests/bench/surfaces.rs has them: "excess" is the chamfer distance beyond that between two samplings of the truth, "off" the mean
@@ -32,6 +32,7 @@ def main():
     arguments.add_argument("--rounds", type=int, default=3)
     arguments.add_argument("--threads", type=int, default=os.cpu_count())
     arguments.add_argument("--noise", type=float, default=0.0)
+    arguments.add_argument("--smoothing", type=float, help="of ours, in distances between points")
     arguments.add_argument("--models", default=",".join(MODELS))
     arguments.add_argument("--quick", action="store_true")
     arguments.add_argument("--poisson", help="for one process: make a surface of this cloud", nargs=2)
@@ -50,6 +51,7 @@ def main():
 
 def compare(program, model, count, options):
     cloud_options = ["--points", str(count), "--noise", str(options.noise)]
+    smoothing = ["--smoothing", str(options.smoothing)] if options.smoothing else []
     with tempfile.TemporaryDirectory(dir=environment.MODELS.parent) as folder:
         cloud, surface = f"{folder}/cloud.f64", f"{folder}/surface.ply"
         subprocess.run([program, "cloud", model, "--output", cloud, *cloud_options], check=True)
@@ -57,7 +59,7 @@ def compare(program, model, count, options):
         times, own, ours = [], [], None
         for _ in range(options.rounds):
             times.append(environment.run_measured(peer, options.threads)["total"])
-            ours = environment.run_measured([program, "ours", model, *cloud_options], options.threads)
+            ours = environment.run_measured([program, "ours", model, *cloud_options, *smoothing], options.threads)
             own.append(ours["total"])
         theirs = environment.run_measured([program, "compare", model, surface], options.threads)
     ours["total"], theirs["total"] = statistics.median(own), statistics.median(times)
