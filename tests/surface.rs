@@ -153,6 +153,21 @@ fn both(a: &TriangleSoup, b: &TriangleSoup) -> TriangleSoup {
 }
 
 #[test]
+fn at_a_level_above_one_only_what_lies_in_two_bodies_is_left_of_a_soup() {
+    let inner = Aabb { min: Vec3::splat(-0.4), max: Vec3::splat(0.3) };
+    let nested = field(both(&cube(1.0), &cuboid(inner)));
+    let volume = |level: f64| {
+        let config = SurfaceConfig { level: Some(level), resolution: Some(50), ..SurfaceConfig::default() };
+        let mesh = extract(&nested, &config, &Silent).unwrap();
+        assert_eq!(topology(&mesh), (2, 0));
+        mesh.volume()
+    };
+    // Cells cut the corners of a cube.
+    assert!((volume(0.5) / 8.0 - 1.0).abs() < 0.01);
+    assert!((volume(1.5) / 0.7f64.powi(3) - 1.0).abs() < 0.03);
+}
+
+#[test]
 fn levels_suggested_for_closed_shapes_are_a_half() {
     let level = |shape: fast_winding::data::Shape| suggested_level(&field(shape), &Silent).unwrap();
     assert!((level(sphere_cloud(5000).into()) - 0.5).abs() < 0.01);

@@ -77,7 +77,7 @@ pub fn surfaces_agree() {
     // A sphere: twice as many faces as vertices, less four.
     assert_eq!(mesh.triangles.len(), 2 * mesh.positions.len() - 4);
     assert_eq!(mesh.positions.len(), 1896);
-    assert_close(mesh.volume(), 4.17272222377905);
+    assert_close(mesh.volume(), 4.172376463313182);
 }
 
 pub fn clouds_are_completed_alike() {
