@@ -228,7 +228,12 @@ fn heat_map_shows_the_field_on_its_plane() {
 }
 
 fn surface(shape: impl Into<Shape>, resolution: usize) -> SurfaceMesh {
-    extract(&field(shape), &SurfaceConfig { resolution, ..SurfaceConfig::default() }, &Silent).unwrap()
+    extract(
+        &field(shape),
+        &SurfaceConfig { resolution: Some(resolution), ..SurfaceConfig::default() },
+        &Silent,
+    )
+    .unwrap()
 }
 
 fn assert_volume(mesh: &SurfaceMesh, expected: f64) {

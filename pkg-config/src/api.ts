@@ -137,12 +137,18 @@ export interface SliceOptions extends CallOptions {
 }
 
 export interface SurfaceOptions extends CallOptions {
-  /** Cells along the longest side: 64 unless said otherwise. */
+  /** Cells along the longest side. Without it and `spacing` soups get 64, clouds cells as large as their points' distances allow. */
   resolution?: number;
   /** Edge of a cubic cell in millimetres. */
   spacing?: number;
-  /** The surface is where w equals this: 0.5 unless said otherwise. */
+  /** The surface is where w equals this: unless said otherwise 0.5 for soups, and for clouds what passes through their points. */
   level?: number;
+  /** Pieces with less than this share of the largest one's area are left out: 0 keeps all. Clouds lose tiny ones unless it is said. */
+  minComponent?: number;
+  /** For noisy clouds: points act as Gaussians of this many mean distances between points, such as 1. */
+  smoothing?: number;
+  /** For open scans: surface farther from any point of the cloud than this many distances between points is left out; then it is open. */
+  trim?: number;
 }
 
 /** w over a plane z = constant, a little beyond the bounds. */
@@ -207,7 +213,7 @@ export interface Shape {
   contains(points: Float32Array | Float64Array, options?: CallOptions): Promise<Uint8Array>;
   voxelize(options?: VoxelOptions): Promise<Voxels>;
   slice(options?: SliceOptions): Promise<Layer[]>;
-  /** The closed surface where w = 1/2. */
+  /** The surface where w = 1/2, closed unless it is trimmed. */
   surface(options?: SurfaceOptions): Promise<Mesh>;
   heatMap(options: { z: number; resolution?: number } & CallOptions): Promise<HeatMap>;
   /** The shape as a file: `stl` (binary), `obj`, `ply` or `off` for soups, `ply` or `xyz` for clouds. */

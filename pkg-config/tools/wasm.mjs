@@ -10,7 +10,7 @@ import { split } from './split.mjs';
 
 /** The file beside `fast_winding_bg.wasm` with what is loaded when first needed: areas and normals of clouds, surfaces. */
 export const MORE = 'fast_winding_more.wasm';
-const IN_MORE = /fast_winding\[[0-9a-f]+\]::(orient|estimate|surface|levelset::(cubes|cube_cases|bricks)|treecode::mutual)::/;
+const IN_MORE = /fast_winding\[[0-9a-f]+\]::(orient|estimate|surface|levelset::(cubes|cube_cases|bricks|blur|roots|sampling)|treecode::mutual)::/;
 
 const RUST_INPUTS = ['Cargo.toml', 'Cargo.lock', 'src', 'pkg-config/tools'];
 /**

@@ -1,17 +1,22 @@
-//! Marching cubes by continuation: a closed, manifold, outward-oriented surface of an inside test.
+//! Marching cubes by continuation: a closed, manifold, outward-oriented surface of a level set.
+use super::bricks::{Around, Bricks, LIMIT, bits, corner_of};
 use super::cube_cases::{EDGES, TRIANGLES};
 use super::seeds::Cell;
-use super::{At, crossing};
-use crate::data::{Cancelled, Monitor, SurfaceMesh, fill_in_blocks, sort_keyed};
+use super::{Blur, CLEARANCE};
+use crate::data::{Cancelled, Monitor, OutOfMemory, SurfaceMesh};
 use crate::math::Vec3;
-use rustc_hash::{FxHashMap, FxHashSet};
-use std::marker::PhantomData;
 
 /// Cubic cells in space: node (i, j, k) lies at `origin + spacing * (i, j, k)`, its cell is on the positive side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceGrid {
     pub origin: Vec3,
     pub spacing: f64,
+}
+
+impl SurfaceGrid {
+    pub(super) fn position(&self, [x, y, z]: Cell) -> Vec3 {
+        self.origin + self.spacing * Vec3::new(f64::from(x), f64::from(y), f64::from(z))
+    }
 }
 
 /// Why a surface could not be traced.
@@ -21,163 +26,195 @@ pub enum TraceError {
     TooFine,
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
 }
 
-/// Coordinates must stay within ±2¹⁹ so that three of them and an axis fit one 64-bit key.
-const LIMIT: i32 = 1 << 19;
-
-fn key([x, y, z]: Cell) -> u64 {
-    let part = |c: i32| (c + LIMIT) as u64;
-    part(x) | part(y) << 20 | part(z) << 40
+/// An edge of the grid with one end inside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    pub start: Vec3,
+    /// From the start to the end.
+    pub along: Vec3,
+    /// What [`LevelSet::values`] said of the start and the end.
+    pub ends: [f32; 2],
 }
 
-fn cell_of(key: u64) -> Cell {
-    [0, 20, 40].map(|shift| (key >> shift & 0xf_ffff) as i32 - LIMIT)
+impl Edge {
+    pub fn at(&self, t: f64) -> Vec3 {
+        self.start + t * self.along
+    }
+
+    /// Where the line through the values at both ends vanishes, from 0 to 1.
+    pub fn interpolated(&self) -> f64 {
+        let [start, end] = self.ends.map(f64::from);
+        if start == end { 0.5 } else { (start / (start - end)).clamp(0.0, 1.0) }
+    }
 }
 
-fn fits(cell: Cell) -> bool {
-    cell.iter().all(|c| (-LIMIT + 2..LIMIT - 2).contains(c))
+/// What is traced: where a function of space changes its sign.
+pub trait LevelSet {
+    /// Whether the function is best asked for at 64 nodes that lie close together, also where not all of them are needed.
+    fn takes_bricks(&self) -> bool;
+
+    /// How its values are to be smoothed before they are looked at, if they are; such a function takes bricks.
+    fn blur(&self) -> Option<Blur> {
+        None
+    }
+
+    /// The function at some points: positive or zero inside, negative outside. NaN where the level set is not to be traced:
+    /// it is then open there.
+    ///
+    /// # Errors
+    /// If and only if the monitor cancels, or memory does not suffice.
+    fn values(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f32>, TraceError>;
+
+    /// Where each edge is crossed, from 0 at its start to 1 at its end.
+    ///
+    /// # Errors
+    /// If and only if the monitor cancels, or memory does not suffice.
+    fn crossings(&self, edges: &[Edge], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError>;
 }
 
-fn corner_of([x, y, z]: Cell, corner: usize) -> Cell {
-    [x + (corner & 1) as i32, y + (corner >> 1 & 1) as i32, z + (corner >> 2 & 1) as i32]
-}
+/// Edges that are asked for together.
+const EDGES_AT_ONCE: usize = 1 << 18;
 
-/// Traces the surface of {inside} through all cells connected to a seed. Every vertex is found by bisection on an edge
-/// of the grid; triangles are counter-clockwise seen from outside.
-///
-/// `inside` gets a position, what that is, and scratch space; it is called from many threads.
+/// Traces a level set through all cells connected to a seed. Every vertex lies on an edge of the grid; triangles are
+/// counter-clockwise seen from outside. The surface is manifold, and closed unless the function has no value somewhere.
 ///
 /// # Errors
-/// If and only if the surface spans more than half a million cells, or the monitor cancels.
-pub fn trace_surface<S: Default>(
+/// If and only if the surface spans more than half a million cells, the monitor cancels, or memory does not suffice.
+pub fn trace_surface(
     grid: &SurfaceGrid,
     seeds: &[Cell],
-    inside: impl Fn(Vec3, At, &mut S) -> bool + Sync,
+    level_set: &dyn LevelSet,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, TraceError> {
-    let mut continuation =
-        Continuation { grid, inside: &inside, nodes: FxHashMap::default(), scratch: PhantomData };
-    let active = continuation.active_cells(seeds, monitor)?;
-    let edges = crossed_edges(&active);
-    let positions = continuation.vertices(&edges, monitor)?;
-    let index: FxHashMap<u64, u32> = edges.iter().zip(0..).map(|(e, i)| (*e, i)).collect();
-    let triangles = active.iter().flat_map(|&(cell, case)| {
-        TRIANGLES[usize::from(case)].iter().map(move |t| t.map(|e| (cell, usize::from(e))))
-    });
-    let triangles = triangles.map(|t| t.map(|(cell, e)| index[&edge_key(cell, e)])).collect();
-    Ok(SurfaceMesh::with_face_normals(positions, triangles))
+    let bricks = Bricks::trace(grid, seeds, level_set, monitor)?;
+    let vertices = Vertices::number(bricks);
+    let positions = vertices.positions(grid, level_set, monitor)?;
+    Ok(SurfaceMesh::with_face_normals(positions, vertices.triangles()))
 }
 
-/// Key of an edge of a cell: that of its lower node, and the axis in the top bits.
-fn edge_key(cell: Cell, edge: usize) -> u64 {
-    let (corner, axis) = EDGES[edge];
-    key(corner_of(cell, corner)) | (axis as u64) << 60
+/// The edges that the level set crosses, and numbers for them.
+struct Vertices {
+    bricks: Bricks,
+    /// Bricks, in the order of the vertices and the triangles.
+    order: Vec<u32>,
+    /// Of each brick: the edges that begin at its nodes and are crossed, by axis, and the number of the first of them.
+    crossed: Vec<([u64; 3], u32)>,
+    count: usize,
 }
 
-fn crossed_edges(active: &[(Cell, u8)]) -> Vec<u64> {
-    let mut edges: Vec<u64> = Vec::with_capacity(active.len() * 4);
-    for &(cell, case) in active {
-        let is_crossed = |edge: &usize| {
-            let (corner, axis) = EDGES[*edge];
-            (case >> corner & 1) != (case >> (corner | 1 << axis) & 1)
-        };
-        edges.extend((0..EDGES.len()).filter(is_crossed).map(|edge| edge_key(cell, edge)));
-    }
-    edges.sort_unstable();
-    edges.dedup();
-    edges
-}
-
-struct Continuation<'a, F, S> {
-    grid: &'a SurfaceGrid,
-    inside: &'a F,
-    nodes: FxHashMap<u64, bool>,
-    scratch: PhantomData<fn() -> S>,
-}
-
-impl<S: Default, F: Fn(Vec3, At, &mut S) -> bool + Sync> Continuation<'_, F, S> {
-    fn position(&self, [x, y, z]: Cell) -> Vec3 {
-        self.grid.origin + self.grid.spacing * Vec3::new(f64::from(x), f64::from(y), f64::from(z))
-    }
-
-    /// All cells that the level set passes through, with their cases, in the order of their keys.
-    fn active_cells(&mut self, seeds: &[Cell], monitor: &dyn Monitor) -> Result<Vec<(Cell, u8)>, TraceError> {
-        let mut visited: FxHashSet<u64> = FxHashSet::default();
-        let mut active = Vec::new();
-        let mut frontier: Vec<Cell> = seeds.to_vec();
-        while !frontier.is_empty() {
-            if !frontier.iter().all(|c| fits(*c)) {
-                return Err(TraceError::TooFine);
-            }
-            frontier.retain(|&cell| visited.insert(key(cell)));
-            self.sample_corners(&frontier, monitor)?;
-            let mut next = Vec::new();
-            for &cell in &frontier {
-                let case = self.case(cell);
-                if case != 0 && case != u8::MAX {
-                    active.push((key(cell), u32::from(case)));
-                    next.extend(neighbours_crossed(cell, case));
+impl Vertices {
+    fn number(bricks: Bricks) -> Vertices {
+        let mut order: Vec<u32> = (0..bricks.bricks.len() as u32).collect();
+        bricks.sort(&mut order);
+        let mut crossed = vec![([0; 3], 0); bricks.bricks.len()];
+        for (place, brick) in bricks.bricks.iter().enumerate().filter(|(_, brick)| brick.active != 0) {
+            let around = bricks.around(place as u32);
+            for cell in bits(brick.active) {
+                let case = bricks.case(&around, cell).unwrap_or(0);
+                for edge in (0..EDGES.len()).filter(|edge| is_crossed(case, *edge)) {
+                    let (owner, node) = lower_end(&around, cell, edge);
+                    crossed[owner].0[EDGES[edge].1] |= 1 << node;
                 }
             }
-            frontier = next;
         }
-        sort_keyed(&mut active);
-        Ok(active.into_iter().map(|(key, case)| (cell_of(key), case as u8)).collect())
+        let mut count = 0;
+        for &place in &order {
+            let (masks, first): &mut ([u64; 3], u32) = &mut crossed[place as usize];
+            *first = count as u32;
+            count += masks.iter().map(|mask| mask.count_ones() as usize).sum::<usize>();
+        }
+        Vertices { bricks, order, crossed, count }
     }
 
-    fn case(&self, cell: Cell) -> u8 {
-        (0..8).fold(0, |case, c| case | u8::from(self.nodes[&key(corner_of(cell, c))]) << c)
-    }
-
-    fn sample_corners(&mut self, cells: &[Cell], monitor: &dyn Monitor) -> Result<(), Cancelled> {
-        let corners = cells.iter().flat_map(|&cell| (0..8).map(move |c| key(corner_of(cell, c))));
-        let mut missing: Vec<u64> = corners.filter(|k| !self.nodes.contains_key(k)).collect();
-        missing.sort_unstable();
-        missing.dedup();
-        let mut values = vec![false; missing.len()];
-        let value =
-            |i: usize, scratch: &mut S| (self.inside)(self.position(cell_of(missing[i])), At::Node, scratch);
-        // How far a continuation has to go is not known: progress begins with the vertices.
-        let undetermined = |_: f64, stage: &str| monitor.report(0.0, stage).is_ok();
-        fill_in_blocks(&mut values, value, "surface cells", &undetermined)?;
-        self.nodes.extend(missing.into_iter().zip(values));
-        Ok(())
-    }
-
-    fn vertices(&self, edges: &[u64], monitor: &dyn Monitor) -> Result<Vec<Vec3>, Cancelled> {
-        let mut positions = vec![Vec3::ZERO; edges.len()];
-        let vertex = |i: usize, scratch: &mut S| {
-            let (node, axis) = (cell_of(edges[i]), (edges[i] >> 60) as usize);
-            let start = self.position(node);
-            let at = |t: f64| start + t * self.grid.spacing * Vec3::AXES[axis];
-            at(crossing(self.nodes[&key(node)], |t| (self.inside)(at(t), At::Edge, scratch)))
-        };
-        fill_in_blocks(&mut positions, vertex, "surface vertices", monitor)?;
+    fn positions(
+        &self,
+        grid: &SurfaceGrid,
+        level_set: &dyn LevelSet,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<Vec3>, TraceError> {
+        let mut positions = Vec::with_capacity(self.count);
+        let mut edges = Vec::new();
+        for (number, &place) in self.order.iter().enumerate() {
+            for axis in 0..3 {
+                let nodes = bits(self.crossed[place as usize].0[axis]);
+                edges.extend(nodes.map(|node| self.bricks.edge(grid, place, node, axis)));
+            }
+            if edges.len() >= EDGES_AT_ONCE || number + 1 == self.order.len() {
+                let (done, total) = (positions.len() as f64, self.count as f64);
+                let share = edges.len() as f64;
+                let of_all =
+                    |part: f64, stage: &str| monitor.report((done + share * part) / total, stage).is_ok();
+                let crossings = level_set.crossings(&edges, &of_all)?;
+                let place = |t: f64| t.clamp(CLEARANCE, 1.0 - CLEARANCE);
+                positions.extend(edges.drain(..).zip(crossings).map(|(edge, t)| edge.at(place(t))));
+            }
+        }
         Ok(positions)
+    }
+
+    fn triangles(&self) -> Vec<[u32; 3]> {
+        let mut triangles = Vec::with_capacity(2 * self.count);
+        for &place in &self.order {
+            let active = self.bricks.bricks[place as usize].active;
+            let around = if active == 0 { continue } else { self.bricks.around(place) };
+            for cell in bits(active) {
+                let case = self.bricks.case(&around, cell).unwrap_or(0);
+                let number = |edge: u8| self.number_of(&around, cell, usize::from(edge));
+                triangles.extend(TRIANGLES[usize::from(case)].iter().map(|t| t.map(number)));
+            }
+        }
+        triangles
+    }
+
+    fn number_of(&self, around: &Around, cell: usize, edge: usize) -> u32 {
+        let (owner, node) = lower_end(around, cell, edge);
+        let (masks, first) = &self.crossed[owner];
+        let axis = EDGES[edge].1;
+        let before = masks[axis] & ((1 << node) - 1);
+        masks[..axis].iter().fold(first + before.count_ones(), |number, mask| number + mask.count_ones())
     }
 }
 
-/// The neighbours across the faces that the level set crosses.
-fn neighbours_crossed(cell: Cell, case: u8) -> impl Iterator<Item = Cell> {
-    (0..6).filter_map(move |face| {
-        let (axis, side) = (face / 2, face % 2);
-        let on_face = (0..8).filter(|c| c >> axis & 1 == side);
-        let inside = on_face.filter(|c| case >> c & 1 == 1).count();
-        (inside != 0 && inside != 4).then(|| {
-            let mut neighbour = cell;
-            neighbour[axis] += 2 * side as i32 - 1;
-            neighbour
-        })
-    })
+/// The lower end of an edge of a cell: its brick and its bit there.
+fn lower_end(around: &Around, cell: usize, edge: usize) -> (usize, usize) {
+    let (brick, node) = corner_of(cell, EDGES[edge].0);
+    (around[brick] as usize, node)
+}
+
+fn is_crossed(case: u8, edge: usize) -> bool {
+    let (corner, axis) = EDGES[edge];
+    (case >> corner & 1) != (case >> (corner | 1 << axis) & 1)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::data::Silent;
+    use crate::levelset::crossing;
     use std::collections::HashMap;
     use std::f64::consts::PI;
+
+    /// A level set of which is known only what is inside.
+    struct InsideTest<F>(F);
+
+    impl<F: Fn(Vec3) -> bool> LevelSet for InsideTest<F> {
+        fn takes_bricks(&self) -> bool {
+            false
+        }
+
+        fn values(&self, points: &[Vec3], _: &dyn Monitor) -> Result<Vec<f32>, TraceError> {
+            Ok(points.iter().map(|p| if (self.0)(*p) { 1.0 } else { -1.0 }).collect())
+        }
+
+        fn crossings(&self, edges: &[Edge], _: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
+            let cross = |edge: &Edge| crossing(edge.ends[0] > 0.0, |t| (self.0)(edge.at(t)));
+            Ok(edges.iter().map(cross).collect())
+        }
+    }
 
     /// V − E + F, after checking that every edge has two opposite triangles.
     fn euler_number(mesh: &SurfaceMesh) -> i64 {
@@ -192,13 +229,13 @@ mod tests {
         mesh.positions.len() as i64 - edges.len() as i64 / 2 + mesh.triangles.len() as i64
     }
 
-    fn trace(spacing: f64, seeds: &[Vec3], inside: impl Fn(Vec3) -> bool + Sync) -> SurfaceMesh {
+    fn trace(spacing: f64, seeds: &[Vec3], inside: impl Fn(Vec3) -> bool) -> SurfaceMesh {
         let grid = SurfaceGrid { origin: Vec3::new(0.013, -0.02, 0.007), spacing };
         let cells: Vec<Cell> = seeds
             .iter()
             .map(|p| crate::levelset::cells_of_point(*p, grid.origin, Vec3::splat(spacing)))
             .collect();
-        trace_surface(&grid, &cells, |p, _, ()| inside(p), &Silent).unwrap()
+        trace_surface(&grid, &cells, &InsideTest(inside), &Silent).unwrap()
     }
 
     #[test]
@@ -222,14 +259,14 @@ mod tests {
     fn random_cells_still_make_a_manifold() {
         // All 256 cases, next to each other in all ways: a hash of the node decides.
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
-        let inside = |p: Vec3, _: At, (): &mut ()| {
+        let inside = |p: Vec3| {
             let n = p.round();
             let in_box = n.cmpgt(Vec3::ZERO).all() && n.cmplt(Vec3::splat(14.0)).all();
             let h = (n.x * 7919.0 + n.y * 104_729.0 + n.z * 1_299_709.0).sin() * 43_758.545;
             in_box && h - h.floor() < 0.5
         };
         let seeds: Vec<Cell> = (0..15 * 15 * 15).map(|i| [i % 15, i / 15 % 15, i / 225]).collect();
-        let mesh = trace_surface(&grid, &seeds, inside, &Silent).unwrap();
+        let mesh = trace_surface(&grid, &seeds, &InsideTest(inside), &Silent).unwrap();
         assert!(mesh.triangles.len() > 5_000);
         euler_number(&mesh);
     }
@@ -238,6 +275,7 @@ mod tests {
     fn surfaces_too_large_for_the_keys_are_refused() {
         let grid = SurfaceGrid { origin: Vec3::ZERO, spacing: 1.0 };
         let cell = [LIMIT, 0, 0];
-        assert_eq!(trace_surface(&grid, &[cell], |_, _, ()| true, &Silent), Err(TraceError::TooFine));
+        let all = InsideTest(|_| true);
+        assert_eq!(trace_surface(&grid, &[cell], &all, &Silent), Err(TraceError::TooFine));
     }
 }

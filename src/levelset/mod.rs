@@ -1,12 +1,18 @@
 //! Level sets by continuation: from cells that hold geometry to their neighbours, as long as the level set goes on
 //! (Wyvill et al. 1986). Knows grids and inside tests, nothing of where they come from.
+mod blur;
+mod bricks;
 mod cube_cases;
 mod cubes;
+mod roots;
+mod sampling;
 mod seeds;
 mod squares;
 
-pub use cubes::{SurfaceGrid, TraceError, trace_surface};
-pub use seeds::{Cell, cells_of_point, cells_of_shape, cells_of_triangle};
+pub use blur::Blur;
+pub use cubes::{Edge, LevelSet, SurfaceGrid, TraceError, trace_surface};
+pub use roots::find_roots;
+pub use seeds::{Cell, cells_of_point, cells_of_points, cells_of_shape, cells_of_triangle};
 pub use squares::{PlaneGrid, trace_contours};
 
 /// Where an inside test is asked.
@@ -28,7 +34,7 @@ const CLEARANCE: f64 = 1e-6;
 ///
 /// Bisection, never interpolation: a winding number jumps at its surface, and between two samples of a cloud's field
 /// lie singularities (Barill et al. 2018, Fig. 9).
-fn crossing(at_zero: bool, mut inside: impl FnMut(f64) -> bool) -> f64 {
+pub fn crossing(at_zero: bool, mut inside: impl FnMut(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);

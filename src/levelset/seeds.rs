@@ -23,6 +23,11 @@ pub fn cells_of_triangle([a, b, c]: [Vec3; 3], origin: Vec3, spacing: Vec3, mut 
     }
 }
 
+/// The cells that hold points, sorted, each once.
+pub fn cells_of_points(points: &[Vec3], origin: Vec3, spacing: Vec3) -> Vec<Cell> {
+    sorted(points.iter().map(|p| cells_of_point(*p, origin, spacing)).collect())
+}
+
 /// The cells that hold some of a shape, sorted, each once: those of its triangles, or those of its points and the 26
 /// around each.
 pub fn cells_of_shape(shape: &Shape, origin: Vec3, spacing: Vec3) -> Vec<Cell> {
@@ -44,6 +49,11 @@ pub fn cells_of_shape(shape: &Shape, origin: Vec3, spacing: Vec3) -> Vec<Cell> {
             }
         }
     }
+    sorted(cells)
+}
+
+/// Cells in a fixed order, each once.
+fn sorted(cells: Vec<Cell>) -> Vec<Cell> {
     // Flipping the sign bit makes the order of unsigned numbers that of signed ones.
     let unsigned = |c: i32| c as u32 ^ 1 << 31;
     let signed = |c: u32| (c ^ 1 << 31) as i32;

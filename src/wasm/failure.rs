@@ -107,7 +107,14 @@ impl From<SurfaceError> for Failure {
         match error {
             SurfaceError::Lattice(lattice) => lattice.into(),
             SurfaceError::Trace(TraceError::Cancelled(cancelled)) => cancelled.into(),
-            SurfaceError::Trace(TraceError::TooFine) | SurfaceError::BadLevel(_) => Failure::invalid(&error),
+            SurfaceError::Trace(TraceError::OutOfMemory(out_of_memory)) => out_of_memory.into(),
+            SurfaceError::Trace(TraceError::TooFine)
+            | SurfaceError::BadLevel(_)
+            | SurfaceError::BadShare(_)
+            | SurfaceError::BadTrim(_)
+            | SurfaceError::BadSmoothing(_)
+            | SurfaceError::SmallCells { .. }
+            | SurfaceError::OnlyOfClouds(_) => Failure::invalid(&error),
         }
     }
 }

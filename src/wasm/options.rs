@@ -224,19 +224,25 @@ impl SliceOptions {
 
 /// How fine a surface is wanted, and at which winding number.
 #[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct SurfaceOptions {
     resolution: Option<usize>,
     spacing: Option<f64>,
     level: Option<f64>,
+    min_component: Option<f64>,
+    smoothing: Option<f64>,
+    trim: Option<f64>,
 }
 
 impl SurfaceOptions {
     pub fn config(&self) -> SurfaceConfig {
-        let default = SurfaceConfig::default();
         SurfaceConfig {
-            resolution: self.resolution.unwrap_or(default.resolution),
+            resolution: self.resolution,
             spacing: self.spacing,
-            level: self.level.unwrap_or(default.level),
+            level: self.level,
+            min_component: self.min_component,
+            smoothing: self.smoothing,
+            trim: self.trim,
         }
     }
 }

@@ -8,7 +8,9 @@ use crate::data::{
     for_each_lattice_block, set_bit, zeroed,
 };
 use crate::math::{Aabb, Vec3};
-use crate::treecode::{DualAccuracy, LatticeTargets, Order, PointTargets, Scratch, Tree, TreeConfig};
+use crate::treecode::{
+    DualAccuracy, LatticeTargets, Order, PointTargets, Scratch, Targets, Tree, TreeConfig,
+};
 use serde::Serialize;
 use std::sync::OnceLock;
 
@@ -304,6 +306,25 @@ impl WindingField {
         Ok(values)
     }
 
+    /// Winding numbers of a cloud at the targets, which are `count`, by their indices: with a largest error of `tolerance`, 1e-5 or
+    /// more. However few they are, single points are not prepared for. 0 everywhere for a soup, and for a smaller tolerance.
+    ///
+    /// # Errors
+    /// If and only if `monitor` cancels or the values do not fit in memory.
+    pub fn evaluate_targets(
+        &self,
+        targets: &dyn Targets,
+        count: usize,
+        tolerance: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<f64>, FieldError> {
+        let mut values = zeroed(count)?;
+        if let (Engine::Cloud(cloud), Some(accuracy)) = (&self.engine, DualAccuracy::within(tolerance)) {
+            cloud.many.add(targets, &accuracy, &mut values, monitor)?;
+        }
+        Ok(values)
+    }
+
     /// Winding numbers at every sample of a lattice.
     ///
     /// # Errors
@@ -383,19 +404,32 @@ impl WindingField {
     /// # Errors
     /// If and only if `monitor` cancels or the answers do not fit in memory.
     pub fn contains(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<bool>, FieldError> {
+        self.classify(points, HALF, monitor)
+    }
+
+    /// Whether w ≥ `threshold` at each of `points`, as in [`WindingField::contains`].
+    ///
+    /// # Errors
+    /// If and only if `monitor` cancels or the answers do not fit in memory.
+    pub fn classify(
+        &self,
+        points: &[Vec3],
+        threshold: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<bool>, FieldError> {
         let mut inside = zeroed(points.len())?;
         monitor.report(0.0, "inside test")?;
         match &self.engine {
             _ if points.len() < MANY => {}
             Engine::Cloud(cloud) => {
                 let mut set = |i: usize, is_inside: bool| inside[i] = is_inside;
-                cloud.classify(&PointTargets::new(points), &|i| points[i], HALF, monitor, &mut set)?;
+                cloud.classify(&PointTargets::new(points), &|i| points[i], threshold, monitor, &mut set)?;
                 return Ok(inside);
             }
             Engine::Soup(soup) => {
                 if let Some(many) = &soup.many {
                     soup.prepare_points();
-                    return Ok(soup.many_inside(many, points, HALF, monitor)?);
+                    return Ok(soup.many_inside(many, points, threshold, monitor)?);
                 }
             }
         }
@@ -403,12 +437,12 @@ impl WindingField {
         let block = |start: usize, results: &mut [bool], scratch: &mut Scratch| match &self.engine {
             Engine::Cloud(_) => {
                 let singly = |(i, result): (usize, &mut bool)| {
-                    *result = self.exceeds(points[start + i], HALF, scratch);
+                    *result = self.exceeds(points[start + i], threshold, scratch);
                 };
                 results.iter_mut().enumerate().for_each(singly);
             }
             Engine::Soup(soup) => {
-                soup.classify(&points[start..start + results.len()], HALF, true, results, scratch);
+                soup.classify(&points[start..start + results.len()], threshold, true, results, scratch);
             }
         };
         fill_blocks(&mut inside, INSIDE_TESTS, block, "inside test", monitor)?;

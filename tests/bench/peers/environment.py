@@ -46,9 +46,9 @@ def install_libraries(python):
             subprocess.run([*sudo, "apt-get", *words], stdout=subprocess.DEVNULL, check=False)
 
 
-def measuring_program():
-    """Path of tests/bench/measure.rs, built for release."""
-    command = ["cargo", "build", "--release", "--quiet", "--example", "measure", "--message-format=json"]
+def measuring_program(name="measure"):
+    """Path of a program of tests/bench/, built for release."""
+    command = ["cargo", "build", "--release", "--quiet", "--example", name, "--message-format=json"]
     output = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
     messages = (json.loads(line) for line in output.splitlines())
     return next(m["executable"] for m in messages if m.get("executable"))

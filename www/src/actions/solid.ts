@@ -1,3 +1,4 @@
+import type { CallOptions, SurfaceOptions } from 'fast-winding';
 import type { Page } from '../page.ts';
 import type { Item } from '../state.ts';
 import { attempt } from './attempt.ts';
@@ -12,11 +13,11 @@ export async function makeVoxels(page: Page, resolution: number, threshold: numb
   });
 }
 
-export async function makeSurface(page: Page, resolution: number): Promise<void> {
+export async function makeSurface(page: Page, how: Omit<SurfaceOptions, keyof CallOptions>): Promise<void> {
   const { store } = page;
   const shape = store.state.model!.shape;
   await attempt(page, 'Surface', 'The surface could not be made', async (options) => {
-    const surface = await timed(() => shape.surface({ resolution, ...options }));
+    const surface = await timed(() => shape.surface({ ...how, ...options }));
     store.set({ surface, visible: only(page, 'surface') });
   });
 }

@@ -1,9 +1,13 @@
+import type { SurfaceOptions } from 'fast-winding';
 import { saveMesh } from '../actions/save.ts';
 import { makeSurface, makeVoxels } from '../actions/solid.ts';
 import { byId, paintSlider, setFacts } from '../dom.ts';
 import { count, milliseconds, volume } from '../format.ts';
 import type { Page } from '../page.ts';
 import type { State } from '../state.ts';
+
+/** Points drawn by lot leave no holes between them within so many of their distances. */
+const TRIM = 3;
 
 export function voxelPanel(page: Page): void {
   const { store } = page;
@@ -44,7 +48,25 @@ export function surfacePanel(page: Page): void {
   };
   resolution.addEventListener('input', describe);
   store.on(['model'], describe);
-  byId('surface').addEventListener('click', () => void makeSurface(page, resolution.valueAsNumber));
+  const smoothing = slider('surface-smoothing');
+  const [fine, trim] = ['surface-fine', 'surface-trim'].map((id) => byId<HTMLInputElement>(id));
+  store.on(['model'], ({ model }) => {
+    byId('surface-of-cloud').hidden = model?.shape.kind !== 'cloud';
+    adapt();
+  });
+  fine.addEventListener('change', adapt);
+  byId('surface').addEventListener('click', () => void makeSurface(page, wanted()));
+
+  function adapt(): void {
+    resolution.disabled = fine.checked && store.state.model?.shape.kind === 'cloud';
+    byId('surface-cells').hidden = resolution.disabled;
+  }
+
+  function wanted(): SurfaceOptions {
+    const fixed = resolution.disabled ? {} : { resolution: resolution.valueAsNumber };
+    if (store.state.model?.shape.kind !== 'cloud') return fixed;
+    return { ...fixed, smoothing: smoothing.valueAsNumber || undefined, trim: trim.checked ? TRIM : undefined };
+  }
   byId('surface-download').addEventListener('click', () => {
     const mesh = store.state.surface?.value;
     if (mesh) void saveMesh(page, mesh, 'surface');

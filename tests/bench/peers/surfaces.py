@@ -1,0 +1,90 @@
+"""Surfaces of clouds: ours beside Open3D's screened Poisson reconstruction, on the same points and true normals.
+
+    python3 tests/bench/peers/surfaces.py [--rounds 3] [--threads 2] [--noise S] [--smoothing D] [--quick]
+
+Clouds are sampled from closed models. Our time includes areas and the field. Distances are in percent of the model's diagonal, as
+tests/bench/surfaces.rs has them: "excess" is the chamfer distance beyond that between two samplings of the truth, "off" the mean
+distance from the truth's planes. `--noise` is a standard deviation, in thousandths of the diagonal. Goals: the excess no worse,
+the time half.
+"""
+import argparse
+import json
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import environment
+
+MODELS = ["bumpy70k", "knot124k", "dragon202k", "featuretype"]
+POINTS = [35_000, 100_000]
+DEPTH = 8
+HEADS = ["model", "points", "whose", "time", "triangles", "excess", "off", "normals"]
+# The floor is itself a sample: differences below this are none.
+FLOOR_NOISE = 2e-4
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--rounds", type=int, default=3)
+    arguments.add_argument("--threads", type=int, default=os.cpu_count())
+    arguments.add_argument("--noise", type=float, default=0.0)
+    arguments.add_argument("--smoothing", type=float, help="of ours, in distances between points")
+    arguments.add_argument("--models", default=",".join(MODELS))
+    arguments.add_argument("--quick", action="store_true")
+    arguments.add_argument("--poisson", help="for one process: make a surface of this cloud", nargs=2)
+    options = arguments.parse_args()
+    environment.enter()
+    if options.poisson:
+        return poisson(*options.poisson, options.threads)
+    program = environment.measuring_program("surfaces")
+    points = POINTS[:1] if options.quick else POINTS
+    print(f"\n{options.threads} thread(s), medians of {options.rounds} round(s), {platform.processor() or platform.machine()}")
+    print("| " + " | ".join(HEADS) + " |\n|" + "---|" * len(HEADS))
+    for model in options.models.split(","):
+        for count in points:
+            compare(program, environment.MODELS / f"{model}.ply", count, options)
+
+
+def compare(program, model, count, options):
+    cloud_options = ["--points", str(count), "--noise", str(options.noise)]
+    smoothing = ["--smoothing", str(options.smoothing)] if options.smoothing else []
+    with tempfile.TemporaryDirectory(dir=environment.MODELS.parent) as folder:
+        cloud, surface = f"{folder}/cloud.f64", f"{folder}/surface.ply"
+        subprocess.run([program, "cloud", model, "--output", cloud, *cloud_options], check=True)
+        peer = [sys.executable, __file__, "--threads", str(options.threads), "--poisson", cloud, surface]
+        times, own, ours = [], [], None
+        for _ in range(options.rounds):
+            times.append(environment.run_measured(peer, options.threads)["total"])
+            ours = environment.run_measured([program, "ours", model, *cloud_options, *smoothing], options.threads)
+            own.append(ours["total"])
+        theirs = environment.run_measured([program, "compare", model, surface], options.threads)
+    ours["total"], theirs["total"] = statistics.median(own), statistics.median(times)
+    for whose, row in (("ours", ours), ("Poisson", theirs)):
+        cells = [model.stem, f"{count:,}", whose, f"{row['total']:.2f} s", f"{row['triangles']:,}"]
+        cells += [f"{row[name]:.4f}" for name in ("excess", "off", "normals")]
+        print("| " + " | ".join(cells) + " |")
+    is_met = ours["excess"] <= theirs["excess"] + FLOOR_NOISE and 2 * ours["total"] <= theirs["total"]
+    print(f"goal {'met' if is_met else 'MISSED'}: {theirs['total'] / ours['total']:.1f} times as fast", file=sys.stderr)
+
+
+def poisson(cloud, surface, threads):
+    """Open3D's surface of a cloud, written to a file; prints the time without reading and writing."""
+    import numpy as np
+    import open3d
+
+    records = np.fromfile(cloud).reshape(-1, 6)
+    points = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(records[:, :3]))
+    points.normals = open3d.utility.Vector3dVector(records[:, 3:])
+    started = time.perf_counter()
+    mesh, _ = open3d.geometry.TriangleMesh.create_from_point_cloud_poisson(points, depth=DEPTH, n_threads=threads)
+    total = time.perf_counter() - started
+    open3d.io.write_triangle_mesh(surface, mesh)
+    print(json.dumps({"total": total}))
+
+
+if __name__ == "__main__":
+    main()
