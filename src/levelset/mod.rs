@@ -1,5 +1,8 @@
 //! Level sets by continuation: from cells that hold geometry to their neighbours, as long as the level set goes on
-//! (Wyvill et al. 1986). Knows grids and inside tests, nothing of where they come from.
+//! (Wyvill et al. 1986). Knows grids and functions of space, nothing of where they come from.
+//!
+//! In space (`cubes`), nodes lie in `bricks` where the level set passes, get their values from the function (`sampling`), perhaps
+//! smoothed (`blur`); where a smooth one crosses edges, all of them are asked for together (`roots`). In a plane, `squares`.
 mod blur;
 mod bricks;
 mod cube_cases;
