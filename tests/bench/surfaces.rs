@@ -6,8 +6,8 @@
 //! surfaces compare MODEL FILE                                      a surface that another program made of them
 //! surfaces soup    MODEL [--resolution N]                          the time that a surface of the model itself takes
 //! ```
-//! `OPTIONS` are --resolution, --level, --min-component, --trim and --smoothing, as in `SurfaceConfig`; `--half 1` leaves half of the
-//! model, an open scan. Noise is a standard deviation along each axis, in thousandths of the diagonal.
+//! `OPTIONS` are --resolution, --level, --min-component, --trim and --smoothing, as in `SurfaceConfig`, and `--bounded 1`, as in
+//! `FieldConfig`; `--half 1` leaves half of the model, an open scan. Noise is a standard deviation along each axis, in thousandths of the diagonal.
 //!
 //! Prints JSON: times in seconds, that of all processors together, the growth of memory while the surface is made; distances in
 //! percent of the diagonal: `chamfer` is between 200,000 samples of either surface, `floor` that between two such samplings of the
@@ -96,7 +96,8 @@ fn ours(model: &TriangleSoup, options: &Options) {
     let (start, began) = (Instant::now(), processor_time());
     let oriented = complete(&cloud, &EstimateConfig::default(), &Silent).expect("the cloud has normals");
     let areas = start.elapsed().as_secs_f64();
-    let field = WindingField::new(oriented, FieldConfig::default());
+    let bounded = options.0.contains_key("bounded");
+    let field = WindingField::new(oriented, FieldConfig { bounded, ..FieldConfig::default() });
     let built = start.elapsed().as_secs_f64();
     let before = resident("VmRSS");
     let mesh = extract(&field, &config, &Silent).expect("nothing cancels");
