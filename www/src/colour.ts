@@ -1,6 +1,6 @@
 /** A diverging colour map for the winding number: blue outside, pale at 1/2, rust inside. */
-
-type Rgb = readonly [number, number, number];
+import { between } from './ramp.ts';
+import type { Rgb } from './ramp.ts';
 
 /** Evenly spaced from one end to the other; lightness rises to the middle and falls evenly after it. */
 const STOPS: readonly Rgb[] = [
@@ -31,8 +31,5 @@ export function spanOf(values: Float64Array): Span {
 }
 
 export function colourOf(value: number, { low, high }: Span): Rgb {
-  const place = Math.min(1, Math.max(0, (value - low) / (high - low))) * (STOPS.length - 1);
-  const below = Math.min(STOPS.length - 2, Math.floor(place));
-  const part = place - below;
-  return [0, 1, 2].map((k) => STOPS[below][k] + part * (STOPS[below + 1][k] - STOPS[below][k])) as unknown as Rgb;
+  return between(STOPS, (value - low) / (high - low));
 }

@@ -1,6 +1,6 @@
 /** Colours for a quantity of each point, such as its area: pale where it is small, dark where it is large. */
-
-type Rgb = readonly [number, number, number];
+import { between } from './ramp.ts';
+import type { Rgb } from './ramp.ts';
 
 /** Evenly spaced; lightness falls evenly. */
 const STOPS: readonly Rgb[] = [
@@ -32,10 +32,7 @@ export function rangeOf(values: Float64Array): Range {
 
 /** Red, green and blue from 0 to 255. */
 export function shadeOf(value: number, { low, high }: Range): Rgb {
-  const place = Math.min(1, Math.max(0, (value - low) / (high - low))) * (STOPS.length - 1);
-  const below = Math.min(STOPS.length - 2, Math.floor(place));
-  const part = place - below;
-  return [0, 1, 2].map((k) => STOPS[below][k] + part * (STOPS[below + 1][k] - STOPS[below][k])) as unknown as Rgb;
+  return between(STOPS, (value - low) / (high - low));
 }
 
 /** Colours of all points, as the graphics card takes them. */

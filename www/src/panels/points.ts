@@ -4,10 +4,10 @@ import { byId } from '../dom.ts';
 import { significant } from '../format.ts';
 import { rangeOf, shadeOf } from '../measure.ts';
 import type { Page } from '../page.ts';
+import { paintScale } from '../ramp.ts';
 import type { PointMeasure, State } from '../state.ts';
 import type { Store } from '../store.ts';
 
-const COLUMNS = 128;
 const UNITS = { area: 'mm²', noise: 'mm' } as const;
 
 /** Estimating normals of a cloud, and the colours of its points. */
@@ -32,15 +32,7 @@ export function measureLegend(store: Store<State>): void {
     byId('measure-legend').hidden = !measure;
     if (!measure) return;
     const range = rangeOf(measure.values);
-    const bar = byId<HTMLCanvasElement>('measure-bar');
-    bar.width = COLUMNS;
-    bar.height = 1;
-    const context = bar.getContext('2d')!;
-    for (let column = 0; column < COLUMNS; column++) {
-      const value = range.low + ((column + 0.5) / COLUMNS) * (range.high - range.low);
-      context.fillStyle = `rgb(${shadeOf(value, range).map(Math.round).join(' ')})`;
-      context.fillRect(column, 0, 1, 1);
-    }
+    paintScale(byId<HTMLCanvasElement>('measure-bar'), range, (value) => shadeOf(value, range));
     byId('measure-low').textContent = significant(range.low, 2);
     byId('measure-high').textContent = `${significant(range.high, 2)} ${UNITS[measure.quantity]}`;
   });
