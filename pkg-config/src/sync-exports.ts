@@ -1,6 +1,7 @@
 export type * from './sync-api.js';
 export type {
-  Accuracy, Bounds, Bytes, CallOptions, CloudArrays, CloudFormat, HeatMap, Info, Layer, Mesh, Polygon, Prepared, ReadOptions,
+  Accuracy, Bounds, Bytes, CallOptions, CloudArrays, CloudFormat, HeatMap, Info, Layer, Mesh, OrientOptions, Polygon,
+  Prepared, ReadOptions,
   SliceOptions, SoupArrays, SoupFormat, SurfaceOptions, VoxelOptions, Voxels, Warning,
 } from './api.js';
 export { WindingError, type ErrorCode } from './error.js';

@@ -34,6 +34,10 @@ pub trait Kernel: Sync {
     /// The points whose hull is the source.
     fn corners(&self, index: usize) -> [Vec3; 3];
     fn quadrature(&self, index: usize) -> Quadrature;
+    /// Whether sources are bounded points.
+    fn is_bounded(&self) -> bool {
+        false
+    }
     /// Packs up to four sources; a lane without a source must add nothing.
     fn block(&self, members: [Option<usize>; WIDTH]) -> Self::Block;
 

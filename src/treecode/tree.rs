@@ -30,7 +30,7 @@ pub struct Tree<K: Kernel> {
     /// Where the blocks of each leaf child begin, and how many there are.
     leaf_blocks: Vec<[(u32, u32); WIDTH]>,
     mode: K::Mode,
-    /// Whether there are bounded points.
+    /// Whether sources are bounded points.
     is_bounded: bool,
 }
 
@@ -124,8 +124,8 @@ impl<K: Kernel> Tree<K> {
         let frame = Frame::around(&bounds);
         let expansions = expand(kernel, &bvh, &frame);
         let (blocks, leaf_blocks) = pack_leaves(kernel, &bvh);
-        let is_bounded = (0..kernel.len()).any(|i| kernel.quadrature(i).extent > 0.0);
-        Tree { bvh, frame, expansions, blocks, leaf_blocks, mode: kernel.mode(), is_bounded }
+        let (mode, is_bounded) = (kernel.mode(), kernel.is_bounded());
+        Tree { bvh, frame, expansions, blocks, leaf_blocks, mode, is_bounded }
     }
 
     /// Winding numbers at up to [`BLOCK`] queries that lie close together, in one walk: each query takes the same clusters

@@ -9,7 +9,8 @@ extern "C" {
     fn place();
 }
 
-/// Puts that part in place, for the thread that calls: done once, so that what is missing is missed before a call.
+/// Puts that part in place, for the thread that calls. What asks for it are the stubs, which are made after compiling: without this
+/// the import would be gone by then.
 #[wasm_bindgen(js_name = placeMore)]
 pub fn place_more() {
     place();

@@ -23,11 +23,6 @@ impl Dipoles {
     pub(super) fn vector(&self, index: usize) -> Vec3 {
         self.cloud.areas()[index] * self.cloud.normals()[index]
     }
-
-    /// √a if it is bounded.
-    pub(super) fn extent_of(&self, index: usize) -> f64 {
-        if self.is_bounded { self.cloud.areas()[index].sqrt() } else { 0.0 }
-    }
 }
 
 /// A sum over dipoles: 4π times a winding number, or, of bounded ones, that itself.
@@ -62,7 +57,7 @@ impl Kernel for Dipoles {
             points: [self.cloud.points()[index]; 3],
             area_vector: self.vector(index),
             area: self.cloud.areas()[index],
-            extent: self.extent_of(index),
+            extent: if self.is_bounded { self.cloud.areas()[index].sqrt() } else { 0.0 },
         }
     }
 
@@ -71,6 +66,10 @@ impl Kernel for Dipoles {
         let vectors = members.map(|m| m.map_or(Vec3::ZERO, |i| self.vector(i)));
         let lanes = |v: [Vec3; WIDTH]| [0, 1, 2].map(|axis| f64x4::from(v.map(|v| v[axis])));
         DipoleBlock { points: lanes(points), area_vectors: lanes(vectors) }
+    }
+
+    fn is_bounded(&self) -> bool {
+        self.is_bounded
     }
 
     fn mode(&self) -> bool {

@@ -311,7 +311,7 @@ impl WindingField {
     ///
     /// # Errors
     /// If and only if `monitor` cancels or the values do not fit in memory.
-    pub fn evaluate_targets(
+    pub(crate) fn evaluate_targets(
         &self,
         targets: &dyn Targets,
         count: usize,

@@ -5,6 +5,7 @@
 //! measure values   MODEL --counts N | --points FILE [--tolerance T | --paper]
 //! measure contains MODEL --points FILE                         classify scattered points
 //! measure build    MODEL                                       build only, with memory
+//! measure orient   MODEL                                       normals of a cloud as if it had none
 //! measure prepare  MODEL                                       areas and build of a cloud, with memory
 //! measure oracle   MODEL --points FILE                         the direct sum in f64, not timed
 //! ```
@@ -16,6 +17,7 @@ use fast_winding::data::{Lattice, OrientedCloud, PointCloud, Shape, Silent};
 use fast_winding::estimate::{self, EstimateConfig};
 use fast_winding::io::{self, Geometry};
 use fast_winding::math::Vec3;
+use fast_winding::orient::{OrientMethod, orient};
 use fast_winding::solid::{VoxelConfig, voxelize};
 use fast_winding::winding::{Accuracy, FieldConfig, WindingField, winding_of_cloud, winding_of_soup};
 use rayon::prelude::*;
@@ -32,6 +34,7 @@ fn main() {
         "voxels" => classify_lattice(&options, &shape),
         "values" => evaluate(&options, &shape),
         "contains" => classify_points(&options, &shape),
+        "orient" => orient_anew(&options, &shape),
         "oracle" => bytes_of(&sum_directly(&options.points(), &shape)),
         _ => panic!("unknown job '{job}': voxels, values, contains, build and oracle are known"),
     };
@@ -179,6 +182,18 @@ impl Options {
             None => Accuracy::default(),
         }
     }
+}
+
+/// Prints the median time, and answers the normals.
+fn orient_anew(options: &Options, shape: &Shape) -> Vec<u8> {
+    let Shape::Cloud(cloud) = shape else { panic!("only clouds have normals to estimate") };
+    let (bare, _) = PointCloud::cleaned(cloud.points().to_vec(), None, None).expect("the cloud is complete");
+    let run = || timed(|| orient(&bare, &OrientMethod::default(), &Silent).expect("there are points").0);
+    let mut runs: Vec<(f64, OrientedCloud)> = (0..options.repeats.clamp(1, 3)).map(|_| run()).collect();
+    let mut times: Vec<f64> = runs.iter().map(|run| run.0).collect();
+    println!("{{\"elements\": {}, \"evaluation\": {:e}}}", shape.len(), median(&mut times));
+    let oriented = runs.pop().expect("it ran").1;
+    bytes_of(&oriented.normals().iter().flat_map(|n| n.to_array()).collect::<Vec<f64>>())
 }
 
 /// The cloud with areas estimated anew.

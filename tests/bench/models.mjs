@@ -32,6 +32,7 @@ const MAKERS = {
   'loose-bunny': () => jittered(MAKERS.bunny(), 0.01),
   // Clouds.
   'cloud-bunny35k': () => dipolesAtVertices(MAKERS.bunny()),
+  'cloud-knot40k': () => dipolesAtBarycentres(knot(366, 55)),
   'cloud-knot100k': () => dipolesAtBarycentres(knot(577, 87)),
   'cloud-knot134k': () => dipolesAtBarycentres(knot(670, 100)),
   'cloud-knot300k': () => dipolesAtBarycentres(knot(1000, 150)),

@@ -7,7 +7,8 @@
 //! surfaces soup    MODEL [--resolution N]                          the time that a surface of the model itself takes
 //! ```
 //! `OPTIONS` are --resolution, --level, --min-component, --trim and --smoothing, as in `SurfaceConfig`, and `--bounded 1`, as in
-//! `FieldConfig`; `--half 1` leaves half of the model, an open scan. Noise is a standard deviation along each axis, in thousandths of the diagonal.
+//! `FieldConfig`; `--half 1` leaves half of the model, an open scan. `--normals` estimates normals rather than take the true ones, by
+//! propagation, consistency, stochastic, or, with the narrowest widths, SD-A-G, SD-A-GB or LM-AB-GB. Noise is a standard deviation along each axis, in thousandths of the diagonal.
 //!
 //! Prints JSON: times in seconds, that of all processors together, the growth of memory while the surface is made; distances in
 //! percent of the diagonal: `chamfer` is between 200,000 samples of either surface, `floor` that between two such samplings of the
@@ -20,6 +21,7 @@ use fast_winding::math::{Aabb, Vec3};
 use fast_winding::metrics::{
     NearestPoints, SurfaceSamples, chamfer_distance, normal_consistency, sample_surface,
 };
+use fast_winding::orient::{Bounded, ConsistencyConfig, OrientMethod, StochasticConfig, Widths, orient};
 use fast_winding::surface::{SurfaceConfig, extract};
 use fast_winding::winding::{FieldConfig, WindingField};
 use std::collections::HashMap;
@@ -74,7 +76,28 @@ fn cloud_of(model: &TriangleSoup, options: &Options) -> SurfaceSamples {
     let mut random = Random(7);
     let mut shift = || noise * random.normal();
     samples.points.iter_mut().for_each(|p| *p += Vec3::new(shift(), shift(), shift()));
+    if let Some(method) = options.0.get("normals") {
+        let (bare, _) = PointCloud::cleaned(samples.points.clone(), None, None).expect("they are finite");
+        let (oriented, _) = orient(&bare, &method_of(method), &Silent).expect("there are points");
+        samples.normals = oriented.normals().to_vec();
+    }
     samples
+}
+
+fn method_of(name: &str) -> OrientMethod {
+    let narrow = |bounded: Bounded| {
+        let widths = Some(Widths::ALL[0]);
+        OrientMethod::Consistency(ConsistencyConfig { bounded, widths, ..Default::default() })
+    };
+    match name {
+        "propagation" => OrientMethod::Propagation,
+        "consistency" => OrientMethod::default(),
+        "stochastic" => OrientMethod::Stochastic(StochasticConfig::default()),
+        "SD-A-G" => narrow(Bounded::Nothing),
+        "SD-A-GB" => narrow(Bounded::Gradients),
+        "LM-AB-GB" => narrow(Bounded::Everything),
+        _ => panic!("unknown method '{name}'"),
+    }
 }
 
 fn diagonal(model: &TriangleSoup) -> f64 {

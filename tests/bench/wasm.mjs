@@ -27,19 +27,24 @@ const JOBS = [
   { name: 'voxels, open', model: 'bunny', job: 'voxels', counts: counts(256), goal: MOST_SLOWER },
   { name: 'values ≤ 1e-3, loose soup', model: 'loose-bunny', job: 'values', tolerance: 1e-3, counts: counts(100), goal: MOST_SLOWER_DUAL },
   { name: 'values ≤ 1e-3, cloud', model: 'cloud-bunny35k', job: 'values', tolerance: 1e-3, counts: counts(100), goal: MOST_SLOWER_DUAL },
+  { name: 'normals, 40k points', model: 'cloud-knot40k', job: 'orient', goal: MOST_SLOWER_DUAL },
   { name: 'contains, closed', model: 'bumpy70k', job: 'contains', scattered: isQuick ? 20_000 : 1_000_000, goal: MOST_SLOWER },
   { name: 'contains, open', model: 'bunny', job: 'contains', scattered: isQuick ? 20_000 : 1_000_000, goal: MOST_SLOWER },
 ];
 
 /** A shape of a model file; promised or at once, as the engine `fw` answers. */
 function open(fw, path) {
+  return path.endsWith('.f64') ? fw.Cloud.from(recordsOf(path)) : fw.Soup.parse(readFileSync(path));
+}
+
+/** Points, normals and areas of a cloud's file. */
+function recordsOf(path) {
   const bytes = readFileSync(path);
-  if (!path.endsWith('.f64')) return fw.Soup.parse(bytes);
   const records = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length / 8);
   const count = records.length / 7;
   const column = (from, width) =>
     Float64Array.from({ length: count * width }, (_, i) => records[7 * Math.floor(i / width) + from + (i % width)]);
-  return fw.Cloud.from({ points: column(0, 3), normals: column(3, 3), areas: column(6, 1) });
+  return { points: column(0, 3), normals: column(3, 3), areas: column(6, 1) };
 }
 
 /** The points that a job asks: cell centres over the bounds, x fastest, or scattered in them from a seed. */
@@ -67,6 +72,17 @@ async function measureWasm(fw, job, path, points) {
       return prepared.milliseconds;
     });
   }
+  if (job.job === 'orient') {
+    const { points } = recordsOf(path);
+    return repeat(async () => {
+      const fresh = await fw.Cloud.from({ points });
+      const start = performance.now();
+      await fresh.orient();
+      const time = performance.now() - start;
+      fresh.free();
+      return time;
+    });
+  }
   const shape = await open(fw, path);
   await shape.prepare();
   const ask = {
@@ -88,7 +104,7 @@ function measureNative(program, job, path, pointsFile) {
   const args = [job.job, path];
   if (job.job === 'voxels') args.push('--counts', job.counts);
   // As `prepare` of the package: the index of points is built too.
-  else args.push('--points', pointsFile);
+  else if (job.job !== 'orient') args.push('--points', pointsFile);
   if (job.tolerance) args.push('--tolerance', job.tolerance);
   const env = { ...process.env, RAYON_NUM_THREADS: '1' };
   const times = JSON.parse(execFileSync(program, args.map(String), { cwd: root, env, encoding: 'utf8' }));

@@ -106,11 +106,11 @@ impl Clusters {
 
 /// The largest extent of a source of each cluster, in the unit frame; nothing where no source is bounded.
 fn extents(sources: &dyn Sources, spans: &[Range<usize>], items: &[u32], scale: f64) -> Vec<f32> {
-    if (0..sources.len()).all(|i| sources.extent(i) == 0.0) {
+    if sources.is_empty() || sources.extent(0).is_none() {
         return vec![];
     }
     let of_cluster = |k: usize| {
-        let all = items[spans[k].clone()].iter().map(|i| sources.extent(*i as usize));
+        let all = items[spans[k].clone()].iter().filter_map(|i| sources.extent(*i as usize));
         (scale * all.fold(0.0, f64::max) * ROUND_UP) as f32
     };
     map_items(spans.len(), of_cluster)

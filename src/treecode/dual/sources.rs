@@ -74,9 +74,9 @@ pub trait Sources: Send + Sync + RefUnwindSafe {
     /// Area times normal.
     fn area_vector(&self, index: usize) -> Vec3;
 
-    /// √a of a bounded point of area a, 0 of what is not bounded: nearer than some times this, its field is not a dipole's.
-    fn extent(&self, _index: usize) -> f64 {
-        0.0
+    /// √a of a point of area a, if points are bounded: nearer than some times this, its field is not a dipole's.
+    fn extent(&self, _index: usize) -> Option<f64> {
+        None
     }
 
     /// A bound of the rounding error that [`Sources::add`] makes for one source at one query.

@@ -26,8 +26,8 @@ impl Sources for Dipoles {
         self.vector(index)
     }
 
-    fn extent(&self, index: usize) -> f64 {
-        self.extent_of(index)
+    fn extent(&self, index: usize) -> Option<f64> {
+        self.is_bounded.then(|| self.cloud.areas()[index].sqrt())
     }
 
     fn rounding(&self) -> f64 {

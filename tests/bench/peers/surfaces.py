@@ -1,11 +1,12 @@
-"""Surfaces of clouds: ours beside Open3D's screened Poisson reconstruction, on the same points and true normals.
+"""Surfaces of clouds: ours beside Open3D's screened Poisson reconstruction, on the same points and normals.
 
-    python3 tests/bench/peers/surfaces.py [--rounds 3] [--threads 2] [--noise S] [--smoothing D] [--quick]
+    python3 tests/bench/peers/surfaces.py [--rounds 3] [--threads 2] [--noise S] [--smoothing D] [--points N,...]
+        [--normals METHOD,...] [--models NAME,...]
 
 Clouds are sampled from closed models. Our time includes areas and the field. Distances are in percent of the model's diagonal, as
 tests/bench/surfaces.rs has them: "excess" is the chamfer distance beyond that between two samplings of the truth, "off" the mean
 distance from the truth's planes. `--noise` is a standard deviation, in thousandths of the diagonal. Goals: the excess no worse,
-the time half.
+the time half. `--normals` are methods of tests/bench/surfaces.rs that estimate them, outside of the time; else they are the true ones.
 """
 import argparse
 import json
@@ -22,7 +23,7 @@ import environment
 MODELS = ["bumpy70k", "knot124k", "dragon202k", "featuretype"]
 POINTS = [35_000, 100_000]
 DEPTH = 8
-HEADS = ["model", "points", "whose", "time", "triangles", "excess", "off", "normals"]
+HEADS = ["model", "points", "normals by", "whose", "time", "triangles", "excess", "off", "normals"]
 # The floor is itself a sample: differences below this are none.
 FLOOR_NOISE = 2e-4
 
@@ -34,23 +35,25 @@ def main():
     arguments.add_argument("--noise", type=float, default=0.0)
     arguments.add_argument("--smoothing", type=float, help="of ours, in distances between points")
     arguments.add_argument("--models", default=",".join(MODELS))
-    arguments.add_argument("--quick", action="store_true")
+    arguments.add_argument("--points", default=",".join(map(str, POINTS)))
+    arguments.add_argument("--normals", default="truth")
     arguments.add_argument("--poisson", help="for one process: make a surface of this cloud", nargs=2)
     options = arguments.parse_args()
     environment.enter()
     if options.poisson:
         return poisson(*options.poisson, options.threads)
     program = environment.measuring_program("surfaces")
-    points = POINTS[:1] if options.quick else POINTS
     print(f"\n{options.threads} thread(s), medians of {options.rounds} round(s), {platform.processor() or platform.machine()}")
     print("| " + " | ".join(HEADS) + " |\n|" + "---|" * len(HEADS))
     for model in options.models.split(","):
-        for count in points:
-            compare(program, environment.MODELS / f"{model}.ply", count, options)
+        for count in map(int, options.points.split(",")):
+            for normals in options.normals.split(","):
+                compare(program, environment.MODELS / f"{model}.ply", count, normals, options)
 
 
-def compare(program, model, count, options):
+def compare(program, model, count, normals, options):
     cloud_options = ["--points", str(count), "--noise", str(options.noise)]
+    cloud_options += [] if normals == "truth" else ["--normals", normals]
     smoothing = ["--smoothing", str(options.smoothing)] if options.smoothing else []
     with tempfile.TemporaryDirectory(dir=environment.MODELS.parent) as folder:
         cloud, surface = f"{folder}/cloud.f64", f"{folder}/surface.ply"
@@ -64,7 +67,7 @@ def compare(program, model, count, options):
         theirs = environment.run_measured([program, "compare", model, surface], options.threads)
     ours["total"], theirs["total"] = statistics.median(own), statistics.median(times)
     for whose, row in (("ours", ours), ("Poisson", theirs)):
-        cells = [model.stem, f"{count:,}", whose, f"{row['total']:.2f} s", f"{row['triangles']:,}"]
+        cells = [model.stem, f"{count:,}", normals, whose, f"{row['total']:.2f} s", f"{row['triangles']:,}"]
         cells += [f"{row[name]:.4f}" for name in ("excess", "off", "normals")]
         print("| " + " | ".join(cells) + " |")
     is_met = ours["excess"] <= theirs["excess"] + FLOOR_NOISE and 2 * ours["total"] <= theirs["total"]
