@@ -18,6 +18,7 @@ pub mod levelset;
 pub mod math;
 pub mod metrics;
 pub mod orient;
+pub mod polygon;
 pub mod slice;
 pub mod solid;
 pub mod surface;

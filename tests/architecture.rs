@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 const LAYERS: &[&[&str]] = &[
     &["math"],
     &["data"],
-    &["io", "bvh"],
+    &["io", "bvh", "polygon"],
     &["treecode", "levelset", "estimate", "metrics"],
     &["winding", "charge"],
     &["slice", "solid", "surface", "check", "orient"],

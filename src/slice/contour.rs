@@ -1,8 +1,9 @@
-use super::{SliceConfig, Span, nesting};
+use super::{SliceConfig, Span};
 use crate::bvh::Bvh;
 use crate::data::{Lattice, LatticeError, Layer, Shape, TriangleSoup, map_items, sorted_pairs};
 use crate::levelset::{At, PlaneGrid, trace_contours};
 use crate::math::{Aabb, Vec2, Vec3};
+use crate::polygon::nest;
 use crate::winding::{Scratch, WindingField};
 
 /// Nodes along the longer side of the coarse scan for level sets that come near no geometry: the bulges in the openings
@@ -58,7 +59,7 @@ impl<'a> Slicer<'a> {
         seeds.dedup();
         let seeds = seeds.into_iter().map(|cell| cell.map(|c| (c ^ BIAS) as i32));
         let rings = trace_contours(&self.grid, seeds, inside);
-        let polygons = nesting::polygons(rings);
+        let polygons = nest(rings);
         Layer { z_bottom: span.bottom, z_top: span.top, z_sample: span.sample, polygons }
     }
 

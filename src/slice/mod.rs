@@ -1,7 +1,6 @@
 //! Layers of a solid: where planes cross from w < 1/2 to w ≥ 1/2.
 mod contour;
 mod heat_map;
-mod nesting;
 mod plan;
 
 pub use heat_map::heat_map;

@@ -3,7 +3,7 @@ use crate::math::Vec2;
 
 /// Sorts rings that do not cross into polygons: counter-clockwise ones are outer, each clockwise one is a hole of the
 /// smallest outer ring around it.
-pub(super) fn polygons(rings: Vec<Ring>) -> Vec<Polygon> {
+pub fn nest(rings: Vec<Ring>) -> Vec<Polygon> {
     let (mut outer, holes): (Vec<_>, Vec<_>) =
         rings.into_iter().map(|ring| (signed_area(&ring), ring)).partition(|(area, _)| *area > 0.0);
     // Smallest first: the first one around a hole is the right one. Ties keep the order of tracing.
@@ -23,7 +23,7 @@ pub(super) fn polygons(rings: Vec<Ring>) -> Vec<Polygon> {
 }
 
 /// Whether `p` lies inside a ring: the parity of its crossings with the ray towards +x.
-fn surrounds(ring: &[Vec2], p: Vec2) -> bool {
+pub fn surrounds(ring: &[Vec2], p: Vec2) -> bool {
     let crosses = |(a, b): (&Vec2, &Vec2)| {
         (a.y <= p.y) != (b.y <= p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x
     };
@@ -55,7 +55,7 @@ mod tests {
             square(Vec2::new(20.0, 0.0), 2.0, false),
             square(o, 0.5, true),
         ];
-        let polygons = polygons(rings);
+        let polygons = nest(rings);
         let summary: Vec<(f64, usize)> = polygons.iter().map(|p| (p.area(), p.holes.len())).collect();
         assert_eq!(summary, [(324.0 - 100.0, 1), (16.0, 0), (4.0 - 1.0, 1)]);
     }
