@@ -11,8 +11,8 @@ pub use chebyshev::{Nodes, bernstein, lebesgue};
 pub use glam::{DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
 pub use plane::{PlaneFit, fit_plane};
 pub use predicates::{
-    Sign, covers, meet, normal_signs, orient_yz, perturbed_side_of_plane, side_of_edge, side_of_plane,
-    tie_break, touches,
+    Sign, covers, meet, normal_signs, orient, orient_yz, perturbed_side_of_plane, side_of_edge,
+    side_of_plane, tie_break, touches,
 };
 pub use registers::{Floats, Plain, Registers, Work, in_widest_registers};
 pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};

@@ -4,7 +4,7 @@
 //! point lies on a line of the yz plane or on a plane of space that rational points span, so every test answers *left*
 //! or *right*, and a ray along x meets each surface in its inside only. The signs of unperturbed tests are exact by
 //! adaptive precision (Shewchuk 1997, crate `robust`).
-use super::Vec3;
+use super::{Vec2, Vec3};
 use robust::{Coord, Coord3D};
 
 /// Unit roundoff of `f64`.
@@ -25,6 +25,12 @@ fn sign(x: f64) -> Sign {
 #[inline]
 pub fn orient_yz(a: Vec3, b: Vec3, c: Vec3) -> Sign {
     orient_in_plane([a.y, a.z], [b.y, b.z], [c.y, c.z])
+}
+
+/// The exact sign of (b − a) × (c − a): 1 if a, b, c turn counter-clockwise.
+#[inline]
+pub fn orient(a: Vec2, b: Vec2, c: Vec2) -> Sign {
+    orient_in_plane(a.to_array(), b.to_array(), c.to_array())
 }
 
 #[inline]

@@ -149,6 +149,20 @@ impl WindingField {
         self.bounds
     }
 
+    /// Whether it is the field of a soup without a boundary: w is an integer everywhere.
+    pub fn is_closed(&self) -> bool {
+        matches!(&self.engine, Engine::Soup(soup) if soup.is_closed())
+    }
+
+    /// Boxes around what bounds the openings of a soup: each cycle of boundary edges of the components that are capped, and all
+    /// of those that are loose. None for closed soups and for clouds.
+    pub fn openings(&self) -> Vec<Aabb> {
+        match &self.engine {
+            Engine::Soup(soup) => soup.openings(),
+            Engine::Cloud(_) => Vec::new(),
+        }
+    }
+
     pub fn report(&self) -> &FieldReport {
         &self.report
     }

@@ -11,7 +11,7 @@ use super::many::Many;
 use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
 use crate::data::{BLOCK, TriangleSoup};
-use crate::math::{Vec3, area_vector};
+use crate::math::{Aabb, Vec3, area_vector};
 use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig, direct_sums};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -89,6 +89,14 @@ impl SoupField {
 
     pub fn counts(&self) -> ClosureCounts {
         self.closure.counts
+    }
+
+    /// Boxes around boundary cycles, and one around all loose triangles.
+    pub fn openings(&self) -> Vec<Aabb> {
+        let around = |cycle: &Vec<Vec3>| Aabb::around(cycle.iter().copied());
+        let loose = self.closure.loose.iter().flat_map(|t| self.soup.corners(*t as usize));
+        let loose = (!self.closure.loose.is_empty()).then(|| Aabb::around(loose));
+        self.curtain.cycles().iter().map(around).chain(loose).collect()
     }
 
     pub fn is_closed(&self) -> bool {

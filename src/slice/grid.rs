@@ -1,6 +1,7 @@
-use super::{SliceConfig, Span};
+use super::SliceConfig;
+use super::plane::Region;
 use crate::bvh::Bvh;
-use crate::data::{Lattice, LatticeError, Layer, Shape, TriangleSoup, map_items, sorted_pairs};
+use crate::data::{Lattice, LatticeError, Polygon, Shape, TriangleSoup, map_items, sorted_pairs};
 use crate::levelset::{At, PlaneGrid, trace_contours};
 use crate::math::{Aabb, Vec2, Vec3};
 use crate::polygon::nest;
@@ -10,8 +11,8 @@ use crate::winding::{Scratch, WindingField};
 /// of a shape. Contours smaller than a 48th of the bounds there are missed.
 const SCAN_NODES: usize = 48;
 
-/// A field, ready to be cut at many heights.
-pub(super) struct Slicer<'a> {
+/// Contours on a grid, for clouds: their fields are smooth. Exact where contours cross the edges of the cells.
+pub(super) struct GridTracer<'a> {
     field: &'a WindingField,
     grid: PlaneGrid,
     /// Cells that cover the bounds along x and y.
@@ -21,15 +22,20 @@ pub(super) struct Slicer<'a> {
     reach: f64,
 }
 
-impl<'a> Slicer<'a> {
-    pub fn new(field: &'a WindingField, config: &SliceConfig) -> Result<Slicer<'a>, LatticeError> {
+impl<'a> GridTracer<'a> {
+    /// Whether there are cells such as a configuration asks for.
+    pub fn check(field: &WindingField, config: &SliceConfig) -> Result<Lattice, LatticeError> {
         let bounds = field.bounds();
-        let lattice = match config.spacing {
+        match config.spacing {
             Some(spacing) => {
-                Lattice::with_spacing(Aabb { max: bounds.max.with_z(bounds.min.z), ..bounds }, spacing)?
+                Lattice::with_spacing(Aabb { max: bounds.max.with_z(bounds.min.z), ..bounds }, spacing)
             }
-            None => Lattice::with_resolution(bounds, config.resolution)?,
-        };
+            None => Lattice::with_resolution(bounds, config.resolution),
+        }
+    }
+
+    pub fn new(field: &'a WindingField, config: &SliceConfig) -> Result<GridTracer<'a>, LatticeError> {
+        let lattice = GridTracer::check(field, config)?;
         let spacing = lattice.spacing.x;
         let grid = PlaneGrid { origin: lattice.origin.truncate(), spacing };
         let cells = [lattice.counts[0] as i32, lattice.counts[1] as i32];
@@ -41,26 +47,29 @@ impl<'a> Slicer<'a> {
                 (boxes, spacing.max(mean_area.sqrt()))
             }
         };
-        Ok(Slicer { field, grid, cells, bvh: Bvh::build(&boxes, 8), reach })
+        Ok(GridTracer { field, grid, cells, bvh: Bvh::build(&boxes, 8), reach })
     }
 
-    /// The polygons of one layer.
-    pub fn layer(&self, span: &Span) -> Layer {
+    /// The polygons of a region at a height.
+    pub fn polygons(&self, z: f64, region: Region) -> Vec<Polygon> {
         let mut scratch = Scratch::default();
-        let mut inside = |p: Vec2, at: At| match at {
-            At::Node => self.field.is_above(p.extend(span.sample), 0.5, &mut scratch),
-            At::Edge => self.field.is_nearly_above(p.extend(span.sample), 0.5, &mut scratch),
+        let (Region::AtLeast(level) | Region::Below(level)) = region;
+        let is_upward = matches!(region, Region::AtLeast(_));
+        let mut inside = |p: Vec2, at: At| {
+            is_upward
+                == match at {
+                    At::Node => self.field.is_above(p.extend(z), level, &mut scratch),
+                    At::Edge => self.field.is_nearly_above(p.extend(z), level, &mut scratch),
+                }
         };
-        let mut seeds = self.seeds_of_geometry(span.sample);
+        let mut seeds = self.seeds_of_geometry(z);
         seeds.extend(self.seeds_of_scan(&mut inside));
         // Biased, so that negative numbers come first.
         const BIAS: u32 = 1 << 31;
         let mut seeds = sorted_pairs(seeds.into_iter().map(|cell| cell.map(|c| c as u32 ^ BIAS)));
         seeds.dedup();
         let seeds = seeds.into_iter().map(|cell| cell.map(|c| (c ^ BIAS) as i32));
-        let rings = trace_contours(&self.grid, seeds, inside);
-        let polygons = nest(rings);
-        Layer { z_bottom: span.bottom, z_top: span.top, z_sample: span.sample, polygons }
+        nest(trace_contours(&self.grid, seeds, inside))
     }
 
     /// Cells that hold a piece of the section of the soup, or lie next to a point of the cloud near the plane.

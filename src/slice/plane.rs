@@ -1,0 +1,63 @@
+use crate::data::Silent;
+use crate::math::Vec2;
+use crate::winding::{Scratch, WindingField};
+use std::cell::RefCell;
+
+/// A plane through a field, and what counts as inside there.
+pub(super) struct Plane<'a> {
+    field: &'a WindingField,
+    pub z: f64,
+    pub region: Region,
+    /// The longer side of the bounds in the plane.
+    pub size: f64,
+    /// How far from a piece of the section its sides are looked at: far above rounding, far below anything that is meant.
+    pub aside: f64,
+    scratch: RefCell<Scratch>,
+}
+
+/// Which winding numbers are inside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Region {
+    /// This much or more.
+    AtLeast(f64),
+    /// Less than this.
+    Below(f64),
+}
+
+/// Share of the size, and of the coordinates, by which sides are looked at.
+const ASIDE: f64 = 1e-10;
+
+impl<'a> Plane<'a> {
+    pub fn new(field: &'a WindingField, z: f64, region: Region) -> Plane<'a> {
+        let bounds = field.bounds();
+        let size = bounds.size().truncate().max_element();
+        let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let aside = ASIDE * size.max(1e-2 * largest);
+        Plane { field, z, region, size, aside, scratch: RefCell::default() }
+    }
+
+    pub fn is_inside(&self, p: Vec2) -> bool {
+        let mut scratch = self.scratch.borrow_mut();
+        let level = match self.region {
+            Region::AtLeast(level) | Region::Below(level) => level,
+        };
+        self.field.exceeds(p.extend(self.z), level, &mut scratch) == self.is_upward()
+    }
+
+    pub fn all_inside(&self, points: &[Vec2]) -> Vec<bool> {
+        let level = match self.region {
+            Region::AtLeast(level) | Region::Below(level) => level,
+        };
+        let points: Vec<_> = points.iter().map(|p| p.extend(self.z)).collect();
+        let singly = |_| {
+            let mut scratch = self.scratch.borrow_mut();
+            points.iter().map(|q| self.field.exceeds(*q, level, &mut scratch)).collect()
+        };
+        let above: Vec<bool> = self.field.classify(&points, level, &Silent).unwrap_or_else(singly);
+        above.into_iter().map(|above| above == self.is_upward()).collect()
+    }
+
+    fn is_upward(&self) -> bool {
+        matches!(self.region, Region::AtLeast(_))
+    }
+}
