@@ -1,6 +1,7 @@
 //! The winding field of a soup or a cloud: one question, *how many times is this point inside?*
 //!
-//! `exact` is the definition and the oracle, `bounded` that of points that are bounded. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
+//! `exact` is the definition and the oracle, `bounded` that of points that are bounded, `planar` the field of points of a
+//! plane. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
 //! (`scan` on lattices, `locate` over `columns` at scattered points) and a fraction of what closes it (`chain`, `closure`,
 //! `curtain`), summed on lattices by `boundary` and spared most inside tests of scattered points by `answers`. Clouds
 //! (`cloud_field`) and triangles that are not worth closing (`loose`) are summed by a dual tree where many points are asked
@@ -30,6 +31,7 @@ mod loose;
 mod many;
 mod near;
 mod parity;
+mod planar;
 mod scan;
 mod soup_field;
 mod surface_rule;
@@ -47,4 +49,5 @@ pub use field::{Accuracy, FieldConfig, FieldError, FieldReport, WindingField};
 pub use gradient::{edge_gradient, winding_gradient, winding_gradient_of_cloud, winding_gradient_of_soup};
 pub use hierarchy::ExactHierarchy;
 pub use parity::{RayParity, Rays};
+pub use planar::{PlanarCloud, PlanarConfig, PlanarCost, PlanarError, PlanarField};
 pub use triangles::Triangles;
