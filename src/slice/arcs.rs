@@ -8,19 +8,32 @@ use crate::math::{Vec2, orient};
 use std::f64::consts::{PI, TAU};
 
 /// How far the level curve may lie off its chords, in sizes of the section.
-const TOLERANCE: f64 = 2e-5;
+const TOLERANCE: f64 = 5e-5;
 /// The longest step, in sizes.
 const LONGEST: f64 = 1.0 / 64.0;
 /// The shortest step, in the distance at which sides of pieces are looked at.
 const SHORTEST: f64 = 64.0;
+/// In shortest steps: an end this near is reached.
+const NEAR: f64 = 8.0;
 /// Places on the circle around the end of a path where an arc may start.
-const AROUND: usize = 64;
-/// Steps of bisection on a circle.
-const BISECTIONS: usize = 40;
+const AROUND: usize = 40;
+/// Angles to both sides of a part that ends at the middle of a circle at which it is looked at besides.
+const BESIDE: [f64; 4] = [1e-5, 3e-4, 5e-3, 0.04];
+/// Steps to a root on a circle.
+const MOST_ROOT_STEPS: usize = 160;
+/// Differences from the threshold that are none.
+const FLAT: f64 = 1e-11;
 /// Angles to both sides of the last step in which the next is looked for.
 const TURNS: [f64; 3] = [0.35, 1.0, 2.2];
 /// Steps of an arc.
-const MOST_STEPS: usize = 20_000;
+const MOST_STEPS: usize = 1_000;
+
+/// A level curve between two ends of the section.
+pub(super) struct Arc {
+    /// After the start; the last is the end.
+    pub points: Vec<Vec2>,
+    pub end: Vec2,
+}
 
 /// Follows arcs.
 pub(super) struct Arcs<'a> {
@@ -38,28 +51,33 @@ impl<'a> Arcs<'a> {
         SHORTEST * self.plane.aside
     }
 
-    /// The level curve from a point where the kept parts end to one of those where they start: its points after the first, and which
-    /// of `ends` it comes to. None if it comes to none.
-    pub fn from_end(&self, start: Vec2, ends: &[Vec2]) -> Option<(Vec<Vec2>, usize)> {
+    /// The level curves from a point where `count` more kept parts end than start, each to one of the points where they start: their
+    /// points after the first, and the number of that end. None if some do not come to one.
+    pub fn from_end(&self, start: Vec2, count: usize, ends: &[Vec2]) -> Option<Vec<Arc>> {
         let clear = ends.iter().map(|e| e.distance(start)).fold(LONGEST * self.plane.size, f64::min);
-        if clear <= self.shortest() {
-            let nearest = (0..ends.len()).min_by(|a, b| {
-                ends[*a].distance_squared(start).total_cmp(&ends[*b].distance_squared(start))
-            })?;
-            return Some((vec![ends[nearest]], nearest));
-        }
         let mut radius = 0.25 * clear;
         while radius > self.shortest() {
-            for direction in self.departures(start, radius) {
-                let first = start + radius * direction;
-                if let Some((mut points, end)) = self.follow(first, direction, radius, ends, None) {
-                    points.insert(0, first);
-                    return Some((points, end));
+            // As many as there have to be: on a large circle others come in between.
+            let departures = self.departures(start, radius);
+            if departures.len() == count {
+                let mut left = ends.to_vec();
+                let arcs: Option<Vec<Arc>> =
+                    departures.iter().map(|d| self.departing(start, *d, radius, &mut left)).collect();
+                if arcs.is_some() {
+                    return arcs;
                 }
             }
             radius *= 0.125;
         }
         None
+    }
+
+    /// Takes the end that it comes to from those that are left.
+    fn departing(&self, start: Vec2, direction: Vec2, radius: f64, left: &mut Vec<Vec2>) -> Option<Arc> {
+        let first = start + radius * direction;
+        let (mut points, end) = self.follow(first, direction, radius, left, None)?;
+        points.insert(0, first);
+        Some(Arc { points, end: left.swap_remove(end) })
     }
 
     /// A level curve that comes back to a point on it.
@@ -74,24 +92,59 @@ impl<'a> Arcs<'a> {
 
     /// Directions in which the level curve leaves a point, the inside on its left.
     fn departures(&self, center: Vec2, radius: f64) -> Vec<Vec2> {
-        let angle = |k: usize| TAU * (k as f64 + 0.37) / AROUND as f64;
-        let circle: Vec<Vec2> = (0..AROUND).map(|k| center + radius * Vec2::from_angle(angle(k))).collect();
+        let mut angles: Vec<f64> =
+            (0..AROUND).map(|k| TAU * (k as f64 + 0.37) / AROUND as f64 - PI).collect();
+        // Next to parts that end there the level curve may be nearly as steep as they are.
+        for [a, b] in self.kept.iter().filter(|part| part[0] == center || part[1] == center) {
+            let along = (if *a == center { *b - *a } else { *a - *b }).to_angle();
+            let aside = BESIDE.into_iter().flat_map(|turn| [along - turn, along + turn]);
+            angles.extend(
+                aside.map(|angle| if angle.abs() > PI { angle - TAU.copysign(angle) } else { angle }),
+            );
+        }
+        angles.sort_by(f64::total_cmp);
+        angles.push(angles[0] + TAU);
+        let circle: Vec<Vec2> =
+            angles.iter().map(|angle| center + radius * Vec2::from_angle(*angle)).collect();
         let inside = self.plane.all_inside(&circle);
-        let begins = (0..AROUND).filter(|k| !inside[*k] && inside[(k + 1) % AROUND]);
+        let begins = (0..angles.len() - 1).filter(|k| !inside[*k] && inside[k + 1]);
         begins
-            .map(|k| Vec2::from_angle(self.root(center, radius, angle(k), angle(k + 1))))
+            .map(|k| Vec2::from_angle(self.root(center, radius, angles[k], angles[k + 1])))
             .filter(|direction| !self.is_on_section(center + radius * *direction))
             .collect()
     }
 
-    /// The angle between two, outside and inside, at which the inside begins.
-    fn root(&self, center: Vec2, radius: f64, mut outside: f64, mut inside: f64) -> f64 {
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (outside + inside);
-            let is_inside = self.plane.is_inside(center + radius * Vec2::from_angle(middle));
-            *(if is_inside { &mut inside } else { &mut outside }) = middle;
+    /// The angle between two, outside and inside, at which the inside begins: by false position, which halves its steps where the
+    /// field jumps.
+    fn root(&self, center: Vec2, radius: f64, outside: f64, inside: f64) -> f64 {
+        let depth = |angle: f64| self.plane.depth(center + radius * Vec2::from_angle(angle));
+        let (mut low, mut high) = ((outside, depth(outside)), (inside, depth(inside)));
+        let mut last_kept = 0;
+        for step in 0..MOST_ROOT_STEPS {
+            let share = low.1 / (low.1 - high.1);
+            // Now and then by halves: at a jump false position alone creeps.
+            let share = if share.is_finite() && step % 4 != 3 { share.clamp(0.0, 1.0) } else { 0.5 };
+            let angle = low.0 + share * (high.0 - low.0);
+            let value = depth(angle);
+            if value.abs() < FLAT || (high.0 - low.0).abs() * radius < 1e-2 * self.plane.aside {
+                return angle;
+            }
+            // The end that stays twice counts half (Illinois).
+            if value >= 0.0 {
+                high = (angle, value);
+                if last_kept == 1 {
+                    low.1 *= 0.5;
+                }
+                last_kept = 1;
+            } else {
+                low = (angle, value);
+                if last_kept == -1 {
+                    high.1 *= 0.5;
+                }
+                last_kept = -1;
+            }
         }
-        inside
+        high.0
     }
 
     /// Whether the inside begins at a point because a part of the section runs through it.
@@ -139,12 +192,12 @@ impl<'a> Arcs<'a> {
                 |k: usize| if left == Some(ends[k]) { f64::INFINITY } else { ends[k].distance(at) };
             let nearest = (0..ends.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
             let to_end = distance(nearest);
-            if to_end <= self.shortest() {
+            if to_end <= NEAR * self.shortest() {
                 points.push(ends[nearest]);
                 return Some((points, nearest));
             }
             // So that no end is stepped over.
-            step = step.min(longest).min((0.5 * to_end).max(0.5 * self.shortest()));
+            step = step.min(longest).min((0.5 * to_end).max(self.shortest()));
             loop {
                 if let Some(angle) = self.step(at, heading, step) {
                     let next = at + step * Vec2::from_angle(angle);
@@ -157,7 +210,9 @@ impl<'a> Arcs<'a> {
                 }
                 step *= 0.5;
                 if step < 0.25 * self.shortest() {
-                    return None;
+                    // Next to an end the curve may be nearer to a part of the section than a step is long.
+                    points.push(ends[nearest]);
+                    return (to_end < TOLERANCE * self.plane.size).then_some((points, nearest));
                 }
             }
             step *= 2.0;
@@ -176,8 +231,10 @@ impl<'a> Arcs<'a> {
 
     /// Whether the level curve is as near to a chord as asked, in its middle.
     fn is_near_chord(&self, from: Vec2, to: Vec2) -> bool {
-        let middle = 0.5 * (from + to);
-        let aside = TOLERANCE * self.plane.size * (to - from).normalize_or_zero().perp();
+        let (middle, along) = (0.5 * (from + to), to - from);
+        // Next to an end the field changes over shorter distances than the tolerance.
+        let aside =
+            (TOLERANCE * self.plane.size).min(0.1 * along.length()) * along.normalize_or_zero().perp();
         self.plane.is_inside(middle + aside) && !self.plane.is_inside(middle - aside)
     }
 }

@@ -54,26 +54,46 @@ fn close(parts: &mut Vec<Directed>, plane: &Plane) -> Option<()> {
         *excess.entry(key(*from)).or_default() += 1;
         *excess.entry(key(*to)).or_default() -= 1;
     }
-    let mut open = |p: Vec2, sign: i32| {
-        let count = excess.get_mut(&key(p)).filter(|count| **count * sign > 0)?;
-        *count -= sign;
-        Some(p)
-    };
-    let mut ends: Vec<Vec2> = parts.iter().filter_map(|part| open(part[0], 1)).collect();
-    let starts: Vec<Vec2> = parts.iter().filter_map(|part| open(part[1], -1)).collect();
+    join_next(&mut excess, parts, 4.0 * plane.aside);
+    let mut starts: Vec<(Vec2, usize)> = Vec::new();
+    let mut ends: Vec<Vec2> = Vec::new();
+    for [from, to] in parts.iter() {
+        for p in [from, to] {
+            match excess.remove(&key(*p)) {
+                Some(count) if count > 0 => ends.extend(std::iter::repeat_n(*p, count as usize)),
+                Some(count) if count < 0 => starts.push((*p, count.unsigned_abs() as usize)),
+                _ => {}
+            }
+        }
+    }
     let mut arcs = Vec::new();
     let tracer = Arcs::new(plane, parts);
-    for start in starts {
-        let (points, end) = tracer.from_end(start, &ends)?;
-        ends.swap_remove(end);
-        let mut from = start;
-        for to in points {
-            arcs.push([from, to]);
-            from = to;
+    for (start, count) in starts {
+        for arc in tracer.from_end(start, count, &ends)? {
+            let place = ends.iter().position(|end| *end == arc.end)?;
+            ends.swap_remove(place);
+            let from = std::iter::once(&start).chain(&arc.points);
+            arcs.extend(from.zip(&arc.points).map(|(a, b)| [*a, *b]));
         }
     }
     parts.extend(arcs);
     ends.is_empty().then_some(())
+}
+
+/// Joins ends that rounding has moved apart.
+fn join_next(excess: &mut FxHashMap<u128, i32>, parts: &mut Vec<Directed>, reach: f64) {
+    let open: Vec<Vec2> = parts.iter().flatten().copied().filter(|p| excess[&key(*p)] != 0).collect();
+    for (k, p) in open.iter().enumerate() {
+        for q in &open[..k] {
+            let (at_p, at_q) = (excess[&key(*p)], excess[&key(*q)]);
+            if at_p * at_q < 0 && p.distance(*q) <= reach {
+                let (from, to) = if at_p < 0 { (*p, *q) } else { (*q, *p) };
+                parts.push([from, to]);
+                excess.insert(key(from), excess[&key(from)] + 1);
+                excess.insert(key(to), excess[&key(to)] - 1);
+            }
+        }
+    }
 }
 
 fn polygons_of(parts: &[Directed]) -> Vec<Polygon> {

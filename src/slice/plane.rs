@@ -1,6 +1,6 @@
 use crate::data::Silent;
 use crate::math::Vec2;
-use crate::winding::{Scratch, WindingField};
+use crate::winding::{Accuracy, Scratch, WindingField};
 use std::cell::RefCell;
 
 /// A plane through a field, and what counts as inside there.
@@ -42,6 +42,15 @@ impl<'a> Plane<'a> {
             Region::AtLeast(level) | Region::Below(level) => level,
         };
         self.field.exceeds(p.extend(self.z), level, &mut scratch) == self.is_upward()
+    }
+
+    /// How far the field is on the inside's side of the threshold.
+    pub fn depth(&self, p: Vec2) -> f64 {
+        let w = self.field.at_with(p.extend(self.z), Accuracy::EXACT, &mut self.scratch.borrow_mut());
+        match self.region {
+            Region::AtLeast(level) => w - level,
+            Region::Below(level) => level - w,
+        }
     }
 
     pub fn all_inside(&self, points: &[Vec2]) -> Vec<bool> {

@@ -92,12 +92,15 @@ impl<'a> Slicer<'a> {
                 sections.block(block).iter().enumerate().map(of_layer).collect()
             }
             Way::Open { sections, order, openings, grid } => {
+                // Of many loose triangles each evaluation sums all there are, and each triangle has two ends.
+                let is_loose = self.field.report().loose_components > 0;
                 let of_layer = |(k, segments): (usize, &Vec<Segment>)| {
                     let place = order[first + k] as usize;
                     let z = sections.height(first + k);
                     let polygons = self.by_mode(|region| {
-                        open::polygons(segments, &Plane::new(self.field, z, region), openings)
-                            .unwrap_or_else(|| self.by_grid(grid, z, region))
+                        let plane = Plane::new(self.field, z, region);
+                        let exact = (!is_loose).then(|| open::polygons(segments, &plane, openings)).flatten();
+                        exact.unwrap_or_else(|| self.by_grid(grid, z, region))
                     });
                     (place, self.layer(place, polygons))
                 };
