@@ -130,9 +130,16 @@ export interface SliceOptions extends CallOptions {
   sampleAt?: 'bottom' | 'middle' | 'top';
   /** Heights z to sample instead, in millimetres. */
   heights?: number[] | Float64Array;
-  /** Edge of a cell in the plane, in millimetres: features smaller than it may be missed. */
+  /**
+   * What is inside: `winding`, w ≥ 1/2, unless said otherwise; `even-odd`, where w rounded is odd, so that overlaps are left out; or
+   * `largest`, the largest outline without its holes, for a vase.
+   */
+  mode?: 'winding' | 'even-odd' | 'largest';
+  /** Vertices are left out where contours stay this near, in millimetres, and hang together as they do: 0 unless said otherwise. */
+  simplify?: number;
+  /** Of clouds: edge of a cell in the plane, in millimetres: features smaller than it may be missed. Soups have exact contours. */
   tolerance?: number;
-  /** Cells along the longest side when `tolerance` is not given: 256 unless said otherwise. */
+  /** Of clouds: cells along the longest side when `tolerance` is not given: 256 unless said otherwise. */
   resolution?: number;
 }
 

@@ -14,6 +14,9 @@ const MAKERS = { parse: 'parse', soup: 'soup', cloud: 'cloud' } as const;
 /** Methods that take a cloud as it came. */
 const WITHOUT_FIELD = ['free', 'export', 'geometry'];
 
+/** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
+const BY_MORE = ['noise', 'surface', 'slice'];
+
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
   readonly job: Job;
@@ -27,10 +30,10 @@ export class Engine {
     return this.glue.version();
   }
 
-  /** Whether a call estimates normals or areas, or makes a surface, which takes the part of the WebAssembly that comes later. */
+  /** Whether a call estimates normals or areas, or makes surfaces or layers, which takes the part of the WebAssembly that comes later. */
   needsMore({ method, handle, args }: Request): boolean {
     if (method === 'parse' || method === 'cloud') return (args.at(-1) as { orient?: string } | undefined)?.orient !== undefined;
-    if (method === 'noise' || method === 'surface') return true;
+    if (BY_MORE.includes(method)) return true;
     return !WITHOUT_FIELD.includes(method) && (this.handles.get(handle)?.isRaw() ?? false);
   }
 

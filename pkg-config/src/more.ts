@@ -1,4 +1,4 @@
-// What estimates normals and areas of clouds, and what makes surfaces, is a part of the WebAssembly of its own, loaded when
+// What estimates normals and areas of clouds, and what makes surfaces and layers, is a part of the WebAssembly of its own, loaded when
 // first needed. Each thread has a table of functions of its own, into which it puts that part.
 import type { ErrorData } from './error.js';
 
@@ -51,7 +51,7 @@ export async function provide(load: () => Promise<ArrayBuffer>): Promise<void> {
 export function placeMore(): void {
   if (!main || main.isPlaced.value) return;
   if (isMissing()) {
-    const message = `the part of the WebAssembly for normals and surfaces could not be loaded: ${failure}`;
+    const message = `the part of the WebAssembly for normals, surfaces and layers could not be loaded: ${failure}`;
     throw { code: 'LoadFailed', message, details: {} } satisfies ErrorData;
   }
   part ??= new WebAssembly.Module(new Uint8Array(shared!, FLAG_BYTES).slice());

@@ -8,9 +8,9 @@ import { StepFailed, run, say } from './run.mjs';
 import { bindgenTools, wasmEnvironment, wasmToolchain } from './rust.mjs';
 import { split } from './split.mjs';
 
-/** The file beside `fast_winding_bg.wasm` with what is loaded when first needed: areas and normals of clouds, surfaces. */
+/** The file beside `fast_winding_bg.wasm` with what is loaded when first needed: areas and normals of clouds, surfaces, layers. */
 export const MORE = 'fast_winding_more.wasm';
-const IN_MORE = /fast_winding\[[0-9a-f]+\]::(orient|estimate|surface|levelset::(cubes|cube_cases|bricks|blur|roots|sampling)|treecode::mutual)::/;
+const IN_MORE = /fast_winding\[[0-9a-f]+\]::(orient|estimate|polygon|print|surface|slice::(?!heat_map)|levelset::(cubes|cube_cases|bricks|blur|roots|sampling|squares)|treecode::mutual)::|\bi_(overlay|float|shape|tree|key_sort)\[/;
 
 const RUST_INPUTS = ['Cargo.toml', 'Cargo.lock', 'src', 'pkg-config/tools'];
 /**

@@ -53,7 +53,7 @@ impl<'a> Arcs<'a> {
 
     /// The level curves from a point where `count` more kept parts end than start, each to one of the points where they start: their
     /// points after the first, and the number of that end. None if some do not come to one.
-    pub fn from_end(&self, start: Vec2, count: usize, ends: &[Vec2]) -> Option<Vec<Arc>> {
+    pub fn departing_from(&self, start: Vec2, count: usize, ends: &[Vec2]) -> Option<Vec<Arc>> {
         let clear = ends.iter().map(|e| e.distance(start)).fold(LONGEST * self.plane.size, f64::min);
         let mut radius = 0.25 * clear;
         while radius > self.shortest() {
@@ -62,7 +62,7 @@ impl<'a> Arcs<'a> {
             if departures.len() == count {
                 let mut left = ends.to_vec();
                 let arcs: Option<Vec<Arc>> =
-                    departures.iter().map(|d| self.departing(start, *d, radius, &mut left)).collect();
+                    departures.iter().map(|d| self.follow_from(start, *d, radius, &mut left)).collect();
                 if arcs.is_some() {
                     return arcs;
                 }
@@ -73,7 +73,7 @@ impl<'a> Arcs<'a> {
     }
 
     /// Takes the end that it comes to from those that are left.
-    fn departing(&self, start: Vec2, direction: Vec2, radius: f64, left: &mut Vec<Vec2>) -> Option<Arc> {
+    fn follow_from(&self, start: Vec2, direction: Vec2, radius: f64, left: &mut Vec<Vec2>) -> Option<Arc> {
         let first = start + radius * direction;
         let (mut points, end) = self.follow(first, direction, radius, left, None)?;
         points.insert(0, first);

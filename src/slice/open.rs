@@ -69,7 +69,7 @@ fn close(parts: &mut Vec<Directed>, plane: &Plane) -> Option<()> {
     let mut arcs = Vec::new();
     let tracer = Arcs::new(plane, parts);
     for (start, count) in starts {
-        for arc in tracer.from_end(start, count, &ends)? {
+        for arc in tracer.departing_from(start, count, &ends)? {
             let place = ends.iter().position(|end| *end == arc.end)?;
             ends.swap_remove(place);
             let from = std::iter::once(&start).chain(&arc.points);

@@ -98,6 +98,7 @@ impl From<SliceError> for Failure {
             SliceError::Plan(plan) => Failure::invalid(plan),
             SliceError::Lattice(lattice) => lattice.into(),
             SliceError::Cancelled(cancelled) => cancelled.into(),
+            SliceError::BadSimplification(_) => Failure::invalid(&error),
         }
     }
 }

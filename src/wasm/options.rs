@@ -4,7 +4,7 @@ use crate::data::{Lattice, Layer, Polygon, Ring, Warning};
 use crate::io::{self, CloudFormat, MeshFormat};
 use crate::math::{Aabb, Vec2};
 use crate::orient::{ConsistencyConfig, OrientMethod, StochasticConfig, Widths};
-use crate::slice::{LayerPlan, SampleAt, SliceConfig};
+use crate::slice::{LayerPlan, SampleAt, SliceConfig, SliceMode};
 use crate::solid::{VoxelConfig, VoxelMethod};
 use crate::surface::SurfaceConfig;
 use crate::winding::{Accuracy, FieldConfig, Order};
@@ -198,12 +198,32 @@ pub struct SliceOptions {
     heights: Option<Vec<f64>>,
     tolerance: Option<f64>,
     resolution: Option<usize>,
+    mode: Option<SliceModeName>,
+    simplify: Option<f64>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum SliceModeName {
+    Winding,
+    EvenOdd,
+    Largest,
 }
 
 impl SliceOptions {
     pub fn config(&self) -> SliceConfig {
-        let resolution = self.resolution.unwrap_or(SliceConfig::default().resolution);
-        SliceConfig { resolution, spacing: self.tolerance }
+        let default = SliceConfig::default();
+        let mode = self.mode.map(|mode| match mode {
+            SliceModeName::Winding => SliceMode::Winding,
+            SliceModeName::EvenOdd => SliceMode::EvenOdd,
+            SliceModeName::Largest => SliceMode::Largest,
+        });
+        SliceConfig {
+            resolution: self.resolution.unwrap_or(default.resolution),
+            spacing: self.tolerance,
+            mode: mode.unwrap_or_default(),
+            simplify: self.simplify.unwrap_or(default.simplify),
+        }
     }
 
     pub fn plan(self) -> LayerPlan {

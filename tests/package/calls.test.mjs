@@ -93,7 +93,7 @@ for (const [name, start] of Object.entries(entries)) {
     const fails = (action) =>
       assert.rejects(async () => action(), (error) => {
         assert.deepEqual([error.code, error.name], ['LoadFailed', 'WindingError']);
-        assert.match(error.message, /for normals and surfaces could not be loaded: .*fast_winding_more\.wasm/);
+        assert.match(error.message, /for normals, surfaces and layers could not be loaded: .*fast_winding_more\.wasm/);
         return true;
       });
     await fails(() => cloud.orient());

@@ -62,7 +62,7 @@ pub fn voxels_agree() {
 pub fn layers_agree() {
     let field = field(broken());
     let plan = LayerPlan { layer_height: 0.25, ..LayerPlan::default() };
-    let layers = slice(&field, &plan, &SliceConfig { resolution: 64, spacing: None }, &Silent).unwrap();
+    let layers = slice(&field, &plan, &SliceConfig::default(), &Silent).unwrap();
     let holes = layers.iter().flat_map(|l| &l.polygons).map(|p| p.holes.len()).sum::<usize>();
     let corners = layers.iter().flat_map(|l| &l.polygons).map(|p| p.outer.len()).sum::<usize>();
     let polygons = layers.iter().map(|l| l.polygons.len()).sum::<usize>();
