@@ -275,3 +275,18 @@ fn what_overlaps_is_united_as_by_the_definition() {
         assert!((area - layer.area()).abs() < 1e-12 * area.max(1.0), "rings do not overlap");
     }
 }
+
+#[test]
+fn contours_of_clouds_are_round_on_coarse_cells() {
+    let field = field(sphere_cloud(20_000));
+    let config = SliceConfig { resolution: 12, ..SliceConfig::default() };
+    let layer = slice(&field, &LayerPlan::at(0.31), &config, &Silent).unwrap().remove(0);
+    let radius = (1.0 - 0.31f64 * 0.31).sqrt();
+    let ring = &layer.polygons[0].outer;
+    // Between two vertices a circle is s² / 8r off its chord.
+    let off = ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| radius - (0.5 * (*a + *b)).length());
+    let worst = off.fold(0.0, |a: f64, b| a.max(b.abs()));
+    assert!(worst < 0.004, "{worst}");
+    assert!((layer.area() / (std::f64::consts::PI * radius * radius) - 1.0).abs() < 4e-3);
+    assert_simple(&layer, "cloud");
+}

@@ -1,10 +1,13 @@
 use super::SliceConfig;
+use super::disjoint::polygons_of_disjoint;
 use super::plane::Region;
+use super::refine::refined;
+use super::section::segment;
 use crate::bvh::Bvh;
-use crate::data::{Lattice, LatticeError, Polygon, Shape, TriangleSoup, map_items, sorted_pairs};
+use crate::data::{Lattice, LatticeError, Polygon, Ring, Shape, TriangleSoup, map_items, sorted_pairs};
 use crate::levelset::{At, PlaneGrid, trace_contours};
-use crate::math::{Aabb, Vec2, Vec3};
-use crate::polygon::nest;
+use crate::math::{Aabb, Vec2};
+use crate::polygon::{Fill, enclosed, nest};
 use crate::winding::{Scratch, WindingField};
 
 /// Nodes along the longer side of the coarse scan for level sets that come near no geometry: the bulges in the openings
@@ -69,7 +72,14 @@ impl<'a> GridTracer<'a> {
         let mut seeds = sorted_pairs(seeds.into_iter().map(|cell| cell.map(|c| c as u32 ^ BIAS)));
         seeds.dedup();
         let seeds = seeds.into_iter().map(|cell| cell.map(|c| (c ^ BIAS) as i32));
-        nest(trace_contours(&self.grid, seeds, inside))
+        let rings = trace_contours(&self.grid, seeds, &mut inside);
+        if matches!(self.field.shape(), Shape::Soup(_)) {
+            return nest(rings);
+        }
+        let mut edge = |p: Vec2| inside(p, At::Edge);
+        let fine: Vec<Ring> = rings.iter().map(|ring| refined(ring, &mut edge)).collect();
+        // Two contours in one cell may come to cross.
+        polygons_of_disjoint(&fine).unwrap_or_else(|| enclosed(&fine, Fill::Positive))
     }
 
     /// Cells that hold a piece of the section of the soup, or lie next to a point of the cloud near the plane.
@@ -91,9 +101,10 @@ impl<'a> GridTracer<'a> {
 
     fn cells_of_section(&self, soup: &TriangleSoup, triangle: usize, z: f64, seeds: &mut Vec<[i32; 2]>) {
         let corners = soup.corners(triangle);
-        let ends: Vec<Vec2> =
-            (0..3).filter_map(|k| edge_at_height(corners[k], corners[(k + 1) % 3], z)).collect();
-        let (Some(&a), Some(&b)) = (ends.first(), ends.last()) else { return };
+        if !corners.iter().any(|p| p.z <= z) || !corners.iter().any(|p| p.z > z) {
+            return;
+        }
+        let [a, b] = segment(corners, z);
         let steps = (2.0 * a.distance(b) / self.grid.spacing).ceil().max(1.0) as usize;
         for step in 0..=steps {
             let cell = self.grid.cell(a.lerp(b, step as f64 / steps as f64));
@@ -126,12 +137,4 @@ impl<'a> GridTracer<'a> {
         }
         seeds
     }
-}
-
-/// Where an edge meets the plane at `z`, an end on the plane included.
-fn edge_at_height(a: Vec3, b: Vec3, z: f64) -> Option<Vec2> {
-    if (a.z <= z) == (b.z <= z) {
-        return None;
-    }
-    Some(a.truncate().lerp(b.truncate(), (z - a.z) / (b.z - a.z)))
 }

@@ -2,7 +2,8 @@
 //!
 //! Of a closed soup the section of its triangles is the contour, once what overlaps is united (`section`, `chains`, `disjoint`). Of an
 //! open one those parts of the section are that 1/2 lies between the two sides of (`arrangement`, `kept`); where the surface is missing
-//! the level curve is followed from end to end (`arcs`, `open`). Clouds have no section: their contours are traced on a `grid`.
+//! the level curve is followed from end to end (`arcs`, `open`). Clouds have no section: their contours are traced on a `grid`,
+//! with more vertices where they turn (`refine`).
 mod arcs;
 mod arrangement;
 mod chains;
@@ -13,6 +14,7 @@ mod kept;
 mod open;
 mod plan;
 mod plane;
+mod refine;
 mod section;
 mod slicer;
 

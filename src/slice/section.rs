@@ -78,7 +78,7 @@ fn cut(heights: &[f64], z: [f64; 3]) -> Range<usize> {
 }
 
 /// The segment of a triangle that has corners on both sides of a plane.
-fn segment(corners: [Vec3; 3], z: f64) -> Segment {
+pub(super) fn segment(corners: [Vec3; 3], z: f64) -> Segment {
     let is_below = corners.map(|p| p.z <= z);
     let mut ends = [Vec2::ZERO; 2];
     for k in 0..3 {
@@ -93,7 +93,7 @@ fn segment(corners: [Vec3; 3], z: f64) -> Segment {
 }
 
 /// Where an edge from below a plane, or on it, to above meets it.
-pub(super) fn at_height(low: Vec3, high: Vec3, z: f64) -> Vec2 {
+fn at_height(low: Vec3, high: Vec3, z: f64) -> Vec2 {
     let share = (z - low.z) / (high.z - low.z);
     // Zeros without a sign, so that equal points have equal bits.
     low.truncate() + share * (high - low).truncate() + Vec2::ZERO
