@@ -4,6 +4,7 @@
 //! A line's cross-section is a rectangle: its volume is width × layer height × length, and so much filament is pushed. Walls lie
 //! half a line's width inside the outline, neighbours one width apart; what is left inside is infill, or solid where a layer nearby
 //! is open.
+mod areas;
 mod estimate;
 mod gcode;
 mod gyroid;
@@ -22,7 +23,7 @@ mod toolpaths;
 
 pub use estimate::Estimate;
 pub use gcode::{GCode, gcode};
-pub use path::{LayerPaths, Path, PathKind, Regions, Report, Toolpaths};
+pub use path::{Approach, LayerPaths, Path, PathKind, Regions, Report, Toolpaths};
 pub use profile::{Origin, Placement, PrinterProfile, ProfileError, Retraction, Speeds};
 pub use settings::{Infill, Seam, ThinWalls, ToolpathSettings};
 pub use toolpaths::toolpaths;

@@ -1,5 +1,5 @@
 //! What a printer does, one move after the other: G-code writes it down, estimates time it.
-use super::path::{Path, PathKind, Toolpaths};
+use super::path::{Approach, Path, PathKind, Toolpaths};
 use super::profile::{PrinterProfile, Speeds};
 use crate::math::{Vec2, Vec3};
 use std::f64::consts::PI;
@@ -80,7 +80,7 @@ pub(super) fn for_each_step(
         let mut is_new_layer = true;
         for path in &layer.paths {
             let Some(start) = path.points.first().map(|p| *p + shift_2d) else { continue };
-            travel(at, start, z, is_new_layer, profile, step);
+            travel(at, (start, path.approach), z, is_new_layer, profile, step);
             is_new_layer = false;
             if feature != Some((path.kind, path.width)) {
                 feature = Some((path.kind, path.width));
@@ -99,7 +99,7 @@ pub(super) fn for_each_step(
 /// To the start of a path, with the filament drawn back where it is far.
 fn travel(
     from: Option<Vec2>,
-    to: Vec2,
+    (to, approach): (Vec2, Approach),
     z: f64,
     is_new_layer: bool,
     profile: &PrinterProfile,
@@ -113,7 +113,8 @@ fn travel(
     };
     let distance = from.distance(to);
     let retraction = &profile.retraction;
-    let draws_back = distance >= retraction.minimum_travel && retraction.length > 0.0;
+    let is_seen = approach == Approach::Across || is_new_layer;
+    let draws_back = is_seen && distance >= retraction.minimum_travel && retraction.length > 0.0;
     let lift = if draws_back { retraction.lift.min(profile.height - z).max(0.0) } else { 0.0 };
     if draws_back {
         step(Step::Filament { length: -retraction.length, speed: retraction.speed });

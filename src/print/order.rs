@@ -3,39 +3,74 @@ use super::path::Path;
 use super::places::Places;
 use crate::math::Vec2;
 
-/// Paths of one part of a layer that are laid before others: those with a lower number come first.
+/// A path with when it is laid: group by group, the nearest next, and stage by stage in each, lower numbers first.
 pub(super) struct Staged {
     pub path: Path,
+    pub group: usize,
     pub stage: usize,
     /// Whether a closed path may start anywhere.
     pub starts_anywhere: bool,
 }
 
-/// All paths, part by part, stage by stage, from one to the nearest next; open ones may be turned round.
-pub(super) fn ordered(parts: Vec<Vec<Staged>>, from: Vec2) -> Vec<Path> {
-    let mut at = from;
-    let mut doors: Vec<(Vec2, usize)> = Vec::new();
-    for (part, paths) in parts.iter().enumerate() {
-        let ends = paths.iter().flat_map(|s| [s.path.points.first(), s.path.points.last()]);
-        doors.extend(ends.flatten().map(|p| (*p, part)));
-    }
-    let mut parts: Vec<Option<Vec<Staged>>> = parts.into_iter().map(Some).collect();
-    let mut places = Places::new(doors.iter().map(|(p, _)| *p).collect());
+/// What is laid in one go: walls, then what they hold.
+#[derive(Default)]
+pub(super) struct Part {
+    pub walls: Vec<Staged>,
+    pub fills: Vec<Staged>,
+}
+
+/// All paths, part by part, from one to the nearest next; open ones may be turned round.
+pub(super) fn ordered(mut parts: Vec<Part>, from: Vec2) -> Vec<Path> {
     let mut order = Vec::new();
-    while let Some(door) = places.nearest(at) {
-        let part = doors[door].1;
-        // The doors of a part follow one another.
-        let first = doors.partition_point(|(_, other)| *other < part);
-        (first..).take_while(|k| doors.get(*k).is_some_and(|d| d.1 == part)).for_each(|k| places.remove(k));
-        let mut paths = parts[part].take().unwrap_or_default();
-        paths.sort_by_key(|staged| staged.stage);
+    let entries = parts.iter().map(|part| ends(part.walls.iter().chain(&part.fills))).collect();
+    by_nearest(entries, from, |part, at| {
+        let Part { walls, fills } = std::mem::take(&mut parts[part]);
+        let at = group_by_group(walls, at, &mut order);
+        group_by_group(fills, at, &mut order)
+    });
+    order
+}
+
+fn group_by_group(mut paths: Vec<Staged>, from: Vec2, order: &mut Vec<Path>) -> Vec2 {
+    paths.sort_by_key(|staged| (staged.group, staged.stage));
+    let mut groups: Vec<Vec<Staged>> = Vec::new();
+    for staged in paths {
+        match groups.last_mut() {
+            Some(group) if group[0].group == staged.group => group.push(staged),
+            _ => groups.push(vec![staged]),
+        }
+    }
+    let entries = groups.iter().map(|group| ends(group.iter())).collect();
+    by_nearest(entries, from, |group, mut at| {
+        let mut paths = std::mem::take(&mut groups[group]);
         while !paths.is_empty() {
             let stage = paths[0].stage;
             let rest = paths.split_off(paths.partition_point(|staged| staged.stage == stage));
-            at = nearest_next(std::mem::replace(&mut paths, rest), at, &mut order);
+            at = nearest_next(std::mem::replace(&mut paths, rest), at, order);
         }
+        at
+    })
+}
+
+fn ends<'a>(paths: impl Iterator<Item = &'a Staged>) -> Vec<Vec2> {
+    paths.flat_map(|s| [s.path.points.first(), s.path.points.last()]).flatten().copied().collect()
+}
+
+/// Visits each number that has an entry, always that with the nearest one next; `visit` gives where it ends.
+fn by_nearest(entries: Vec<Vec<Vec2>>, from: Vec2, mut visit: impl FnMut(usize, Vec2) -> Vec2) -> Vec2 {
+    let mut first = vec![0];
+    first.extend(entries.iter().scan(0, |end, some| {
+        *end += some.len();
+        Some(*end)
+    }));
+    let mut places = Places::new(entries.into_iter().flatten().collect());
+    let mut at = from;
+    while let Some(entry) = places.nearest(at) {
+        let number = first.partition_point(|start| *start <= entry) - 1;
+        (first[number]..first[number + 1]).for_each(|k| places.remove(k));
+        at = visit(number, at);
     }
-    order
+    at
 }
 
 /// Appends paths from one to the nearest next; gives where the last ends.
@@ -74,32 +109,39 @@ fn nearest_next(paths: Vec<Staged>, from: Vec2, order: &mut Vec<Path>) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::print::path::PathKind;
+    use crate::print::path::{Approach, PathKind};
 
-    fn open(points: &[(f64, f64)], stage: usize) -> Staged {
+    fn open(points: &[(f64, f64)], group: usize, stage: usize) -> Staged {
         let points = points.iter().map(|p| Vec2::from(*p)).collect();
-        let path = Path { kind: PathKind::Infill, points, closed: false, width: 0.4 };
-        Staged { path, stage, starts_anywhere: false }
+        let path =
+            Path { kind: PathKind::Infill, points, closed: false, width: 0.4, approach: Approach::Across };
+        Staged { path, group, stage, starts_anywhere: false }
+    }
+
+    fn starts(parts: Vec<Part>) -> Vec<[f64; 2]> {
+        ordered(parts, Vec2::ZERO).iter().map(|p| p.points[0].to_array()).collect()
     }
 
     #[test]
     fn the_nearest_end_comes_next() {
-        let lines = vec![
-            open(&[(0.0, 5.0), (10.0, 5.0)], 0),
-            open(&[(10.0, 1.0), (0.0, 1.0)], 0),
-            open(&[(0.0, 9.0), (10.0, 9.0)], 0),
+        let fills = vec![
+            open(&[(0.0, 5.0), (10.0, 5.0)], 0, 0),
+            open(&[(10.0, 1.0), (0.0, 1.0)], 0, 0),
+            open(&[(0.0, 9.0), (10.0, 9.0)], 0, 0),
         ];
-        let order = ordered(vec![lines], Vec2::ZERO);
-        let starts: Vec<[f64; 2]> = order.iter().map(|p| p.points[0].to_array()).collect();
-        assert_eq!(starts, [[0.0, 1.0], [10.0, 5.0], [0.0, 9.0]]);
+        assert_eq!(starts(vec![Part { walls: vec![], fills }]), [[0.0, 1.0], [10.0, 5.0], [0.0, 9.0]]);
     }
 
     #[test]
-    fn a_part_is_finished_stage_by_stage() {
-        let near = vec![open(&[(1.0, 0.0), (2.0, 0.0)], 1), open(&[(3.0, 0.0), (4.0, 0.0)], 0)];
-        let far = vec![open(&[(4.5, 0.0), (5.0, 0.0)], 0)];
-        let order = ordered(vec![far, near], Vec2::ZERO);
-        let starts: Vec<f64> = order.iter().map(|p| p.points[0].x).collect();
-        assert_eq!(starts, [3.0, 2.0, 4.5]);
+    fn a_part_is_finished_group_by_group_and_stage_by_stage() {
+        let walls = vec![
+            open(&[(1.0, 0.0), (2.0, 0.0)], 7, 1),
+            open(&[(8.0, 0.0), (8.5, 0.0)], 2, 0),
+            open(&[(3.0, 0.0), (4.0, 0.0)], 7, 0),
+        ];
+        let near = Part { walls, fills: vec![open(&[(0.5, 0.0), (0.6, 0.0)], 0, 0)] };
+        let far = Part { walls: vec![], fills: vec![open(&[(4.5, 0.0), (5.0, 0.0)], 0, 0)] };
+        let xs: Vec<f64> = starts(vec![far, near]).iter().map(|p| p[0]).collect();
+        assert_eq!(xs, [3.0, 2.0, 8.0, 0.6, 4.5]);
     }
 }

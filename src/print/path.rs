@@ -25,6 +25,17 @@ pub enum PathKind {
     Infill,
 }
 
+/// How the nozzle gets to a path from the end of the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Approach {
+    /// Over the outline or a wall: what drips shows.
+    #[default]
+    Across,
+    /// All over the inside of its layer: filament need not be drawn back.
+    Inside,
+}
+
 /// A line of a print: of one width, as high as its layer. Its cross-section is a rectangle, so its volume is width × height
 /// × length.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +45,7 @@ pub struct Path {
     pub points: Vec<Vec2>,
     pub closed: bool,
     pub width: f64,
+    pub approach: Approach,
 }
 
 impl Path {

@@ -1,8 +1,8 @@
 //! Walls: lines at half a line's width, one and a half and so on inside the outline.
+use super::areas::{area, grown, wide_parts, without};
 use super::path::{Loop, Regions};
 use super::settings::{ThinWalls, ToolpathSettings};
 use crate::data::{Polygon, Ring};
-use crate::polygon::{Boolean, Join, combined, offset};
 
 /// Both sides of a wall are at least this part of a line's width apart; below, the overlap of the lines would bulge.
 const LEAST_SEPARATION: f64 = 0.7;
@@ -29,11 +29,13 @@ pub(super) fn walls(shape: &[Polygon], settings: &ToolpathSettings) -> Walls {
     let mut within = shape.to_vec();
     for depth in 0..settings.perimeters {
         if within.is_empty() {
-            break;
+            return walls;
         }
         let wants_both_lines = depth == 0 && settings.thin_walls == ThinWalls::Report;
-        let (middle, covered) = wall(&within, width, if wants_both_lines { 0.0 } else { LEAST_SEPARATION });
-        let narrow = narrow_rest(&within, &covered, width);
+        let margin = if wants_both_lines { 0.0 } else { 0.5 * LEAST_SEPARATION * width };
+        let core = grown(&within, -(0.5 * width + margin));
+        let middle = if margin > 0.0 { grown(&core, margin) } else { core.clone() };
+        let narrow = narrow_rest(&within, &grown(&core, 0.5 * width + margin), width);
         if depth == 0 {
             walls.thin_walls = Regions { count: narrow.len(), area: area(&narrow) };
             walls.thin = narrow;
@@ -44,25 +46,16 @@ pub(super) fn walls(shape: &[Polygon], settings: &ToolpathSettings) -> Walls {
         walls.loops.extend(rings.map(|ring| Loop { ring: cleaned(ring, width), depth }));
         let is_last = depth + 1 == settings.perimeters;
         let overlap = if is_last { 0.0 } else { settings.wall_overlap };
-        within = offset(&middle, -(0.5 - overlap) * width, Join::Miter);
+        within = grown(&core, margin - (0.5 - overlap) * width);
     }
     walls.loops.retain(|l| l.ring.len() > 2);
-    let (_, wide) = wall(&within, width, LEAST_SEPARATION);
-    let narrow = narrow_rest(&within, &wide, width);
+    // Infill wants room for more than a line, too.
+    let reach = 0.5 * (1.0 + LEAST_SEPARATION) * width;
+    walls.inside = grown(&grown(&within, -reach), reach);
     if settings.perimeters > 0 {
-        walls.gaps.extend(narrow);
+        walls.gaps.extend(narrow_rest(&within, &walls.inside, width));
     }
-    walls.inside = wide;
     walls
-}
-
-/// The middle of a line along the borders of a shape, its sides apart by `separation` widths, and what the wall encloses.
-fn wall(shape: &[Polygon], width: f64, separation: f64) -> (Vec<Polygon>, Vec<Polygon>) {
-    let margin = 0.5 * separation * width;
-    let core = offset(shape, -(0.5 * width + margin), Join::Miter);
-    let covered = offset(&core, 0.5 * width + margin, Join::Miter);
-    let middle = if margin > 0.0 { offset(&core, margin, Join::Miter) } else { core };
-    (middle, covered)
 }
 
 /// Parts of a shape beyond what is covered, without slivers too narrow to print.
@@ -71,15 +64,9 @@ fn narrow_rest(shape: &[Polygon], covered: &[Polygon], width: f64) -> Vec<Polygo
     if area(shape) - area(covered) < 0.5 * (NARROWEST * width).powi(2) {
         return Vec::new();
     }
-    let rest = combined(shape, covered, Boolean::Difference);
-    let half = 0.5 * NARROWEST * width;
-    let mut rest = offset(&offset(&rest, -half, Join::Miter), half, Join::Miter);
+    let mut rest = wide_parts(without(shape, covered), NARROWEST * width);
     rest.retain(|piece| piece.area() > NARROWEST * width * width);
     rest
-}
-
-pub(super) fn area(polygons: &[Polygon]) -> f64 {
-    polygons.iter().map(Polygon::area).sum()
 }
 
 /// A ring without edges far shorter than a line is wide, which offsets leave behind at tight corners.

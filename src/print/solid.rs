@@ -1,11 +1,11 @@
 //! What is open above or below gets skins and solid layers; what lies over nothing gets bridges.
+use super::areas::{area, grown_within, intersected, wide_parts, without};
 use super::hatch::{Hatch, hatch};
 use super::path::{Regions, Report, length_of};
-use super::perimeters::area;
 use super::settings::ToolpathSettings;
 use crate::data::Polygon;
 use crate::math::Vec2;
-use crate::polygon::{Boolean, EdgeGrid, Join, combined, offset, opened};
+use crate::polygon::EdgeGrid;
 use std::f64::consts::PI;
 
 /// Infill in pockets smaller than this many squares of a line's width is not worth its travels: they are made solid.
@@ -37,6 +37,10 @@ pub(super) struct Fills {
 pub(super) struct Stack<'a> {
     pub shapes: &'a [Vec<Polygon>],
     pub insides: &'a [Vec<Polygon>],
+    /// What the `bottom_layers` layers that begin with each have in common; empty where there are not as many.
+    pub common_below: &'a [Vec<Polygon>],
+    /// The same for `top_layers`.
+    pub common_above: &'a [Vec<Polygon>],
 }
 
 impl Stack<'_> {
@@ -48,40 +52,56 @@ impl Stack<'_> {
         if inside.is_empty() {
             return fills;
         }
-        let open_below = self.open(layer, false, settings.bottom_layers);
-        let open_above = self.open(layer, true, settings.top_layers);
-        let mut exposed = match (open_below.is_empty(), open_above.is_empty()) {
-            (false, false) => combined(&open_below, &open_above, Boolean::Union),
-            (true, false) => open_above,
-            (_, true) => open_below,
-        };
-        exposed = opened(&exposed, 0.5 * NARROWEST * width);
-        let mut solid = grown(&exposed, ANCHOR * width, inside);
-        fills.sparse = without(inside, &solid);
-        fills.sparse = opened(&fills.sparse, 0.5 * width);
-        fills.sparse.retain(|pocket| pocket.area() >= LEAST_POCKET * width * width);
-        if settings.density >= 1.0 {
-            fills.sparse.clear();
+        let exposed = wide_parts(self.exposed(layer, settings), NARROWEST * width);
+        let is_solid = settings.density >= 1.0;
+        if !is_solid && !exposed.is_empty() {
+            let sparse = without(inside, &grown_within(&exposed, ANCHOR * width, inside));
+            fills.sparse = wide_parts(sparse, width);
+        } else if !is_solid {
+            fills.sparse.clone_from(inside);
         }
-        if settings.density >= 1.0 || area(&solid) + area(&fills.sparse) < area(inside) - 0.5 * width * width
-        {
-            solid = without(inside, &fills.sparse);
+        let is_pocket = |p: &Polygon| p.area() < LEAST_POCKET * width * width;
+        // What is exposed nowhere stays infill, however small: else thin columns would be solid throughout.
+        if !exposed.is_empty() {
+            fills.sparse.retain(|p| !is_pocket(p));
         }
+        let mut solid =
+            if exposed.is_empty() && !is_solid { Vec::new() } else { without(inside, &fills.sparse) };
         if layer == 0 && settings.bottom_layers > 0 {
             fills.bottom = solid;
             return fills;
         }
-        let solid = if layer > 0 && settings.bottom_layers > 0 {
-            self.lay_over_nothing(layer, settings, &mut fills, solid)
-        } else {
-            solid
-        };
-        if settings.top_layers > 0 {
-            let open = self.directly_open(layer, true);
-            fills.top = intersected(&opened(&open, 0.5 * NARROWEST * width), &solid);
+        if layer > 0 && settings.bottom_layers > 0 {
+            solid = self.lay_over_nothing(layer, settings, &mut fills, solid);
+        }
+        if settings.top_layers > 0 && !solid.is_empty() {
+            let open = match self.shapes.get(layer + 1) {
+                Some(above) => wide_parts(without(&self.insides[layer], above), NARROWEST * width),
+                None => inside.clone(),
+            };
+            fills.top = intersected(&open, &solid);
         }
         fills.solid = without(&solid, &fills.top);
         fills
+    }
+
+    /// The inside of a layer where one of the layers next to it has nothing.
+    fn exposed(&self, layer: usize, settings: &ToolpathSettings) -> Vec<Polygon> {
+        let inside = &self.insides[layer];
+        let mut closed = inside.clone();
+        if settings.bottom_layers > 0 {
+            let first = layer.checked_sub(settings.bottom_layers);
+            closed = first.map_or(Vec::new(), |first| intersected(&closed, &self.common_below[first]));
+        }
+        if settings.top_layers > 0 {
+            let above = self.common_above.get(layer + 1).map_or([].as_slice(), Vec::as_slice);
+            closed = intersected(&closed, above);
+        }
+        // Not even one part as wide as it takes.
+        if area(inside) - area(&closed) < 0.5 * (NARROWEST * settings.line_width).powi(2) {
+            return Vec::new();
+        }
+        without(inside, &closed)
     }
 
     /// Takes what lies over nothing out of the solid parts: bridges, overhangs and bottoms.
@@ -94,68 +114,53 @@ impl Stack<'_> {
     ) -> Vec<Polygon> {
         let width = settings.line_width;
         let inside = &self.insides[layer];
-        let open = opened(&self.directly_open(layer, false), 0.5 * NARROWEST * width);
+        let open = wide_parts(without(inside, &self.shapes[layer - 1]), NARROWEST * width);
         if open.is_empty() {
             return solid;
         }
-        let skins = grown(&open, BRIDGE_ANCHOR * width, inside);
+        let skins = grown_within(&open, BRIDGE_ANCHOR * width, inside);
         let supports = EdgeGrid::new(&self.shapes[layer - 1]);
         for skin in &skins {
             let (direction, anchored) = bridge_direction(skin, width, &supports);
             let over_nothing = intersected(std::slice::from_ref(skin), &open);
             let region = Regions { count: 1, area: area(&over_nothing) };
-            if anchored >= ANCHORED {
+            if anchored < ANCHORED {
+                fills.report.overhangs.add(region);
+                fills.overhangs.push(skin.clone());
+            } else {
                 fills.report.bridges.add(region);
                 if settings.bridges {
                     fills.bridges.push((skin.clone(), direction));
                 } else {
                     fills.bottom.push(skin.clone());
                 }
-            } else {
-                fills.report.overhangs.add(region);
-                fills.overhangs.push(skin.clone());
             }
         }
         // What infill would lie on is bridged all the same.
         fills.sparse = without(&fills.sparse, &skins);
         without(&solid, &skins)
     }
+}
 
-    /// The inside of a layer where one of the next `count` layers has nothing.
-    fn open(&self, layer: usize, above: bool, count: usize) -> Vec<Polygon> {
-        let inside = &self.insides[layer];
-        let beyond = if above { self.shapes.len() - 1 - layer } else { layer };
-        if count > beyond {
-            return inside.clone();
-        }
-        let mut closed = inside.clone();
-        for k in 1..=count {
-            let neighbour = &self.shapes[if above { layer + k } else { layer - k }];
-            closed = intersected(&closed, neighbour);
-        }
-        if area(inside) - area(&closed) < 1e-6 * area(inside) {
-            return Vec::new();
-        }
-        without(inside, &closed)
+/// What each `count` layers have in common, by the first of them.
+pub(super) fn common(
+    shapes: &[Vec<Polygon>],
+    count: usize,
+    mut for_each: impl FnMut(usize, &(dyn Fn(usize) -> Vec<Polygon> + Sync)) -> Vec<Vec<Polygon>>,
+) -> Vec<Vec<Polygon>> {
+    if count == 0 || count > shapes.len() {
+        return Vec::new();
     }
-
-    /// The inside of a layer where the next one has nothing.
-    fn directly_open(&self, layer: usize, above: bool) -> Vec<Polygon> {
-        self.open(layer, above, 1)
+    // Windows of 1, 2, 4 … layers, then two of those that overlap: a handful of intersections in place of `count`.
+    let mut size = 1;
+    let mut windows = shapes.to_vec();
+    while size < count {
+        let step = size.min(count - size);
+        let total = windows.len() - step;
+        windows = for_each(total, &|k| intersected(&windows[k], &windows[k + step]));
+        size += step;
     }
-}
-
-fn without(first: &[Polygon], second: &[Polygon]) -> Vec<Polygon> {
-    if second.is_empty() { first.to_vec() } else { combined(first, second, Boolean::Difference) }
-}
-
-fn intersected(first: &[Polygon], second: &[Polygon]) -> Vec<Polygon> {
-    combined(first, second, Boolean::Intersection)
-}
-
-/// Parts of `whole` near to `parts`.
-fn grown(parts: &[Polygon], by: f64, whole: &[Polygon]) -> Vec<Polygon> {
-    intersected(&offset(parts, by, Join::Miter), whole)
+    windows
 }
 
 /// The direction in which most lines end on supports, of several the one with the shortest lines; and that share.

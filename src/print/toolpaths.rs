@@ -1,16 +1,18 @@
 use super::PrintError;
+use super::areas::{area, grown, without};
 use super::gyroid::gyroid;
 use super::hatch::{Hatch, hatch};
-use super::order::{Staged, ordered};
-use super::path::{LayerPaths, Loop, Path, PathKind, Regions, Report, Toolpaths, length_of};
-use super::perimeters::{Walls, area, walls};
+use super::order::{Part, Staged, ordered};
+use super::path::{Approach, LayerPaths, Loop, Path, PathKind, Regions, Report, Toolpaths, length_of};
+use super::perimeters::{Walls, walls};
+use super::places::Places;
 use super::seams::place_seams;
 use super::settings::{Infill, Seam, ThinWalls, ToolpathSettings};
-use super::solid::{Fills, Stack};
+use super::solid::{Fills, Stack, common};
 use super::thin::{MiddleLine, middle_lines};
 use crate::data::{Cancelled, Layer, Monitor, Polygon, map_tasks, threads};
 use crate::math::Vec2;
-use crate::polygon::{Boolean, EdgeGrid, Join, Stretch, combined, offset, opened, simplify};
+use crate::polygon::{EdgeGrid, Stretch, opened, simplify};
 use std::f64::consts::FRAC_PI_2;
 
 /// So many lines may lie side by side in a layer: what that takes fits in memory.
@@ -51,7 +53,24 @@ pub fn toolpaths(
         all_walls.push(walls);
     }
 
-    let stack = Stack { shapes: &shapes, insides: &insides };
+    let in_common = |layers: usize| -> Result<Vec<Vec<Polygon>>, Cancelled> {
+        let mut cancelled = None;
+        let common = common(&shapes, layers, |count, task| {
+            in_blocks(count, monitor, "neighbours", task).unwrap_or_else(|stop| {
+                cancelled = Some(stop);
+                vec![Vec::new(); count]
+            })
+        });
+        cancelled.map_or(Ok(common), Err)
+    };
+    let common_below = in_common(settings.bottom_layers)?;
+    let common_above = if settings.top_layers == settings.bottom_layers {
+        common_below.clone()
+    } else {
+        in_common(settings.top_layers)?
+    };
+    let (common_below, common_above) = (&common_below, &common_above);
+    let stack = Stack { shapes: &shapes, insides: &insides, common_below, common_above };
     let fills = in_blocks(count, monitor, "fill", &|k| {
         let fills = stack.fills(k, settings);
         let mut paths = fill_paths(&fills, k, layers[k].z_top, settings);
@@ -69,11 +88,10 @@ pub fn toolpaths(
         let below = if k > 0 { shapes[k - 1].as_slice() } else { &[] };
         let parts = parts(&shapes[k], &all_walls[k].loops, &fills[k].0, settings);
         let height = layers[k].z_top - layers[k].z_bottom;
-        let (paths, overhanging_walls) = if k > 0 {
-            split_overhangs(ordered(parts, from), below, height, settings)
-        } else {
-            (ordered(parts, from), 0.0)
-        };
+        let paths = ordered(parts, from);
+        let (mut paths, overhanging_walls) =
+            if k > 0 { split_overhangs(paths, below, height, settings) } else { (paths, 0.0) };
+        tell_approaches(&mut paths, &insides[k]);
         (LayerPaths { z: layers[k].z_top, height, paths }, overhanging_walls)
     })?;
     let mut result = Vec::with_capacity(count);
@@ -130,12 +148,12 @@ fn outline(polygons: &[Polygon], is_first: bool, settings: &ToolpathSettings) ->
     let grow = settings.xy_compensation - if is_first { settings.elephant_foot } else { 0.0 };
     let mut shape = simplify(polygons, settings.detail);
     if grow != 0.0 {
-        shape = offset(&shape, grow, Join::Miter);
+        shape = grown(&shape, grow);
     }
     let mut dropped = Regions::default();
     if settings.minimum_feature > 0.0 {
         let wide = opened(&shape, 0.5 * settings.minimum_feature);
-        let mut rest = combined(&shape, &wide, Boolean::Difference);
+        let mut rest = without(&shape, &wide);
         // Beyond rounded corners, which lose slivers only.
         rest.retain(|piece| piece.area() > 0.1 * settings.minimum_feature.powi(2));
         dropped = Regions { count: rest.len(), area: area(&rest) };
@@ -149,12 +167,18 @@ fn fill_paths(fills: &Fills, layer: usize, z: f64, settings: &ToolpathSettings) 
     let width = settings.line_width;
     // Without walls there is nothing to reach into.
     let overlap = if settings.perimeters > 0 { settings.infill_overlap } else { 0.0 };
-    let inset = |area: &[Polygon]| offset(area, -(0.5 - overlap) * width, Join::Miter);
+    let inset = |area: &[Polygon]| grown(area, -(0.5 - overlap) * width);
     let angle = settings.angle.to_radians() + if layer % 2 == 1 { FRAC_PI_2 } else { 0.0 };
     let mut paths = Vec::new();
     let mut add = |kind: PathKind, lines: Vec<Vec<Vec2>>| {
         let long = lines.into_iter().filter(|line| length_of(line, false) >= 0.5 * width);
-        paths.extend(long.map(|points| Path { kind, points, closed: false, width }));
+        paths.extend(long.map(|points| Path {
+            kind,
+            points,
+            closed: false,
+            width,
+            approach: Approach::Across,
+        }));
     };
     let skins = [
         (PathKind::Bottom, &fills.bottom),
@@ -193,7 +217,13 @@ fn fill_paths(fills: &Fills, layer: usize, z: f64, settings: &ToolpathSettings) 
 /// Lines along what has no room for one on either side.
 fn narrow_paths(walls: &Walls, settings: &ToolpathSettings) -> Vec<Path> {
     let lines = |strips: &[Polygon], kind: PathKind| {
-        let path = move |MiddleLine { points, closed, width }| Path { kind, points, closed, width };
+        let path = move |MiddleLine { points, closed, width }| Path {
+            kind,
+            points,
+            closed,
+            width,
+            approach: Approach::Across,
+        };
         middle_lines(strips, settings.line_width, settings.detail).into_iter().map(path)
     };
     let mut paths: Vec<Path> = lines(&walls.gaps, PathKind::Gap).collect();
@@ -203,29 +233,67 @@ fn narrow_paths(walls: &Walls, settings: &ToolpathSettings) -> Vec<Path> {
     paths
 }
 
-/// The paths of each polygon: inner walls, then outer ones, then what they hold.
-fn parts(shape: &[Polygon], loops: &[Loop], fills: &[Path], settings: &ToolpathSettings) -> Vec<Vec<Staged>> {
+/// The paths of each polygon: walls, contour by contour from the inside out, then what they hold.
+fn parts(shape: &[Polygon], loops: &[Loop], fills: &[Path], settings: &ToolpathSettings) -> Vec<Part> {
     let grid = (shape.len() > 1).then(|| EdgeGrid::new(shape));
-    let mut parts: Vec<Vec<Staged>> = (0..=shape.len()).map(|_| Vec::new()).collect();
-    let mut add = |path: Path, stage: usize| {
-        let Some(&start) = path.points.first() else { return };
-        let part = grid.as_ref().map_or(Some(0), |grid| grid.polygon_around(start));
-        // The last part takes what lies, by rounding, in none.
-        let part = part.unwrap_or(shape.len());
-        let is_fixed = path.kind == PathKind::OuterWall || path.kind == PathKind::InnerWall;
-        let starts_anywhere = !is_fixed || settings.seam == Seam::Nearest;
-        parts[part].push(Staged { path, stage, starts_anywhere });
+    // The last part takes what lies, by rounding, in none.
+    let mut parts: Vec<Part> = (0..=shape.len()).map(|_| Part::default()).collect();
+    let part_of = |path: &Path| {
+        let around = grid.as_ref().map_or(Some(0), |grid| grid.polygon_around(path.points[0]));
+        around.unwrap_or(shape.len())
     };
-    for wall in loops {
+    let outermost = outermost(loops);
+    for (wall, group) in loops.iter().zip(outermost) {
         let kind = if wall.depth == 0 { PathKind::OuterWall } else { PathKind::InnerWall };
-        let path = Path { kind, points: wall.ring.clone(), closed: true, width: settings.line_width };
-        add(path, settings.perimeters - wall.depth);
+        let (points, width) = (wall.ring.clone(), settings.line_width);
+        let path = Path { kind, points, closed: true, width, approach: Approach::Across };
+        let starts_anywhere = settings.seam == Seam::Nearest;
+        let stage = settings.perimeters - wall.depth;
+        parts[part_of(&path)].walls.push(Staged { path, group, stage, starts_anywhere });
     }
-    for path in fills {
-        let stage = settings.perimeters + usize::from(path.kind != PathKind::ThinWall);
-        add(path.clone(), stage);
+    for path in fills.iter().filter(|path| !path.points.is_empty()) {
+        let stage = usize::from(path.kind != PathKind::ThinWall);
+        let staged = Staged { path: path.clone(), group: 0, stage, starts_anywhere: true };
+        parts[part_of(path)].fills.push(staged);
     }
     parts
+}
+
+/// The number of the outermost wall that each wall follows: that whose line is nearest, depth by depth.
+fn outermost(loops: &[Loop]) -> Vec<usize> {
+    let mut found: Vec<usize> = (0..loops.len()).collect();
+    let mut outside: (Vec<usize>, Places) = (Vec::new(), Places::new(Vec::new()));
+    let mut start = 0;
+    // Loops come in the order of their depths.
+    for depth in loops.chunk_by(|a, b| a.depth == b.depth) {
+        let numbers = start..start + depth.len();
+        for number in numbers.clone() {
+            if let Some(vertex) = outside.1.nearest(loops[number].ring[0]) {
+                found[number] = found[outside.0[vertex]];
+            }
+        }
+        let vertices =
+            numbers.clone().flat_map(|number| loops[number].ring.iter().map(move |p| (number, *p)));
+        let (owners, places): (Vec<usize>, Vec<Vec2>) = vertices.unzip();
+        outside = (owners, Places::new(places));
+        start = numbers.end;
+    }
+    found
+}
+
+/// Finds the paths whose start is reached over the inside.
+fn tell_approaches(paths: &mut [Path], inside: &[Polygon]) {
+    let grid = EdgeGrid::new(inside);
+    let mut at: Option<Vec2> = None;
+    for path in paths {
+        if let (Some(from), Some(&to)) = (at, path.points.first())
+            && path.kind != PathKind::OuterWall
+            && grid.cut(&[from, to], false).iter().all(|way| way.is_inside)
+        {
+            path.approach = Approach::Inside;
+        }
+        at = path.end();
+    }
 }
 
 /// Walls cut where what is below no longer holds them; with how long those parts are.
@@ -241,7 +309,7 @@ fn split_overhangs(
     let width = settings.line_width;
     let lean = height * libm::tan(settings.overhang_angle.to_radians());
     // The middle of a line is half its width inside of where the wall leans out to.
-    let held = EdgeGrid::new(&offset(below, lean - 0.5 * width, Join::Miter));
+    let held = EdgeGrid::new(&grown(below, lean - 0.5 * width));
     let mut length = 0.0;
     let mut split = Vec::with_capacity(paths.len());
     for path in paths {
@@ -260,6 +328,7 @@ fn split_overhangs(
                 points: s.points,
                 closed: false,
                 width: path.width,
+                approach: Approach::Across,
             })),
         }
     }

@@ -9,15 +9,16 @@
 use fast_winding::data::{Layer, Shape, Silent, TriangleSoup};
 use fast_winding::io::{self, Geometry};
 use fast_winding::print::{
-    Infill, LayerPaths, PathKind, PrinterProfile, ToolpathSettings, Toolpaths, gcode, toolpaths,
+    Approach, Infill, LayerPaths, PathKind, PrinterProfile, ToolpathSettings, Toolpaths, gcode, toolpaths,
 };
 use fast_winding::slice::{LayerPlan, SliceConfig, slice};
 use fast_winding::winding::{FieldConfig, WindingField};
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::time::Instant;
 
-const STEPS: [&str; 5] = ["parse", "field", "slice", "toolpaths", "g-code"];
+const STEPS: [&str; 7] = ["parse", "field", "slice", "walls", "fill", "order", "g-code"];
 
 fn main() {
     let mut words = std::env::args().skip(1);
@@ -72,8 +73,15 @@ fn prepare(
     clock.lap();
     let layers = slice(&field, plan, &SliceConfig::default(), &Silent).expect("the model can be sliced");
     clock.lap();
-    let paths = toolpaths(&layers, settings, &Silent).expect("the layers can be filled");
-    clock.lap();
+    let clock = RefCell::new(clock);
+    let stages = |fraction: f64, stage: &str| {
+        if fraction == 1.0 && stage != "neighbours" {
+            clock.borrow_mut().lap();
+        }
+        true
+    };
+    let paths = toolpaths(&layers, settings, &stages).expect("the layers can be filled");
+    let mut clock = clock.into_inner();
     let program = gcode(&paths, &PrinterProfile::default()).expect("the paths can be printed");
     clock.lap();
     (layers, paths, program.text)
@@ -140,14 +148,15 @@ fn drawing(layer: &LayerPaths) -> String {
             let _ = write!(d, "{}{:.3} {:.3}", if k == 0 { "M" } else { "L" }, p.x, -p.y);
         }
         let end = if path.closed { "Z" } else { "" };
-        let (color, line) = (color(path.kind), 0.85 * path.width);
-        let _ = writeln!(svg, r#"<path stroke="{color}" stroke-width="{line:.3}" d="{d}{end}"/>"#);
+        let (stroke, line) = (color(path.kind), 0.85 * path.width);
+        let _ = writeln!(svg, r#"<path stroke="{stroke}" stroke-width="{line:.3}" d="{d}{end}"/>"#);
         let start = path.points[0];
         if let Some((x, y)) = at {
+            let color = if path.approach == Approach::Across { "#000" } else { "#f0f" };
             let (to_x, to_y) = (start.x, -start.y);
             let _ = writeln!(
                 svg,
-                r##"<path stroke="#000" stroke-width="0.05" d="M{x:.3} {y:.3}L{to_x:.3} {to_y:.3}"/>"##
+                r##"<path stroke="{color}" stroke-width="0.05" d="M{x:.3} {y:.3}L{to_x:.3} {to_y:.3}"/>"##
             );
         }
         at = path.end().map(|p| (p.x, -p.y));
