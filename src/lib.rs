@@ -19,6 +19,7 @@ pub mod math;
 pub mod metrics;
 pub mod orient;
 pub mod polygon;
+pub mod print;
 pub mod slice;
 pub mod solid;
 pub mod surface;

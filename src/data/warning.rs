@@ -44,6 +44,18 @@ pub enum WarningKind {
     DegenerateFaces,
     /// Vertices that no triangle with an area uses give no points of a cloud.
     UnusedVertices,
+    /// Parts of layers are too thin for a line along either side: they got a single one, or none.
+    ThinWalls,
+    /// Parts of layers narrower than the least feature asked for were left out.
+    DroppedFeatures,
+    /// Parts of layers hang over nothing: they want support.
+    Overhangs,
+    /// The print lay off the bed and was moved to its middle.
+    MovedToBed,
+    /// Layers are higher than the nozzle is wide: their lines hardly stick.
+    HighLayers,
+    /// Lines are much narrower than the nozzle.
+    NarrowLines,
 }
 
 impl Warning {
@@ -87,6 +99,16 @@ impl fmt::Display for Warning {
             WarningKind::FlatCloud => write!(f, "the {n} points lie in one plane: they bound no volume"),
             WarningKind::DegenerateFaces => write!(f, "{n} triangles without area give no points"),
             WarningKind::UnusedVertices => write!(f, "{n} vertices of no triangle give no points"),
+            WarningKind::ThinWalls => {
+                write!(f, "{n} parts of layers are too thin for a line along either side")
+            }
+            WarningKind::DroppedFeatures => {
+                write!(f, "{n} parts of layers narrower than the least feature were left out")
+            }
+            WarningKind::Overhangs => write!(f, "{n} parts of layers hang over nothing: they want support"),
+            WarningKind::MovedToBed => write!(f, "the print lay off the bed and was moved to its middle"),
+            WarningKind::HighLayers => write!(f, "{n} layers are higher than the nozzle is wide"),
+            WarningKind::NarrowLines => write!(f, "{n} lines are narrower than 0.6 of the nozzle"),
         }
     }
 }

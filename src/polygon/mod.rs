@@ -1,12 +1,14 @@
 //! Polygons of a plane: unions, differences and offsets (by the crate i_overlay, on a grid of 2⁻⁶¹ of the extent), nesting of
-//! rings, simplification that keeps topology, lines clipped to polygons.
+//! rings, simplification that keeps topology, lines clipped to polygons or cut by them, edges in a grid.
 //!
 //! What is returned is simple and nested: rings that do not cross themselves or each other, outer ones counter-clockwise, holes
 //! clockwise and inside the outer ring they belong to.
+mod edges;
 mod nesting;
 mod offset;
 mod simplify;
 
+pub use edges::{EdgeGrid, Stretch, nearest_on_segment};
 pub use nesting::{nest, surrounds};
 pub use offset::{Join, offset, opened};
 pub use simplify::simplify;
