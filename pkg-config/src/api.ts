@@ -1,3 +1,6 @@
+import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
+export type * from './print-api.js';
+
 /** Options of `init`. The same options give the same engine; other options another one. */
 export interface InitOptions {
   /** How many threads: `'auto'` (the default) one for each processor, `false` the single-threaded build. */
@@ -220,6 +223,8 @@ export interface Shape {
   contains(points: Float32Array | Float64Array, options?: CallOptions): Promise<Uint8Array>;
   voxelize(options?: VoxelOptions): Promise<Voxels>;
   slice(options?: SliceOptions): Promise<Layer[]>;
+  /** The same layers one after the other, from the first: only some are in memory at a time. */
+  layers(options?: SliceOptions): AsyncIterable<Layer>;
   /** The surface where w = 1/2, closed unless it is trimmed. */
   surface(options?: SurfaceOptions): Promise<Mesh>;
   heatMap(options: { z: number; resolution?: number } & CallOptions): Promise<HeatMap>;
@@ -308,6 +313,19 @@ export interface FastWinding {
   };
   /** One layer as a file. */
   exportLayer(layer: Layer, format: 'svg'): Promise<Uint8Array>;
+  /** The lines that fill layers, for a nozzle: walls, infill, skins, in the order they are laid. */
+  toolpaths(layers: Layer[], settings?: ToolpathSettings & CallOptions): Promise<Toolpaths>;
+  /** A program for a printer, G-code in Marlin's dialect. Fails with `DoesNotFit` if the print is too large for it or off its bed. */
+  gcode(paths: Pick<Toolpaths, 'layers'>, profile?: PrinterProfile): Promise<GCode>;
+  /**
+   * Settings and a profile with all that is not given, as the defaults have it; fails if a value is out of range, and with
+   * `DoesNotFit` if a model of the `size` (x, y, z) in millimetres is too large for the printer.
+   */
+  printSettings(given?: {
+    settings?: ToolpathSettings;
+    profile?: PrinterProfile;
+    size?: [number, number, number];
+  }): Promise<{ settings: Required<ToolpathSettings>; profile: RequiredProfile }>;
   /** Ends the engine: its worker, its threads, its shapes. */
   dispose(): void;
   [Symbol.dispose](): void;

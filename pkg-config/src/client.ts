@@ -77,6 +77,13 @@ export class Client implements Caller {
     return (answer as Promise<unknown>).then(f);
   }
 
+  async *each(list: unknown, size: number, ask: (part: Float64Array) => unknown): AsyncGenerator<unknown> {
+    const numbers = (await list) as Float64Array;
+    for (let from = 0; from < numbers.length; from += size) {
+      yield* (await ask(numbers.slice(from, from + size))) as unknown[];
+    }
+  }
+
   fail(error: WindingError): unknown {
     return Promise.reject(error);
   }

@@ -14,8 +14,11 @@ const MAKERS = { parse: 'parse', soup: 'soup', cloud: 'cloud' } as const;
 /** Methods that take a cloud as it came. */
 const WITHOUT_FIELD = ['free', 'export', 'geometry'];
 
+/** What is asked of the engine, not of a shape, and whether it reports progress. */
+const FUNCTIONS = { exportLayer: false, toolpaths: true, gcode: false, printSettings: false } as const;
+
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice'];
+const BY_MORE = ['noise', 'surface', 'slice', ...Object.keys(FUNCTIONS)];
 
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
@@ -43,13 +46,18 @@ export class Engine {
     this.job.listen(progress);
     this.job.watch(watcher);
     if (this.needsMore(request)) placeMore();
+    if (method in FUNCTIONS) return this.runFunction(method as keyof typeof FUNCTIONS, args);
     if (method in MAKERS) return this.make(MAKERS[method as keyof typeof MAKERS], handle, args);
-    if (method === 'exportLayer') return this.glue.exportLayer(...(args as [unknown, string]));
     if (method === 'free') return this.free(handle);
     const shape = this.handles.get(handle);
     if (!shape) throw { code: 'Freed', message: 'this shape was freed', details: {} };
     const call = shape[method as keyof Handle] as (...args: unknown[]) => unknown;
     return call.apply(shape, [...args, this.job]);
+  }
+
+  private runFunction(name: keyof typeof FUNCTIONS, args: unknown[]): unknown {
+    const call = this.glue[name] as (...args: unknown[]) => unknown;
+    return call(...args, ...(FUNCTIONS[name] ? [this.job] : []));
   }
 
   private make(maker: keyof typeof MAKERS, id: number, args: unknown[]): unknown {

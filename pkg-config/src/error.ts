@@ -8,6 +8,7 @@ export type ErrorCode =
   | 'MissingNormals'
   | 'InvalidArgument'
   | 'OutOfMemory'
+  | 'DoesNotFit'
   | 'Unsupported'
   | 'LoadFailed'
   | 'Aborted'
@@ -24,7 +25,7 @@ export interface ErrorData {
 /**
  * The one error class of this package. `details` by code: `ParseError` { format, byte | line, expected },
  * `NonFiniteVertex` { vertex }, `IndexOutOfRange` { triangle, index, vertices }, `OutOfMemory` { bytes },
- * `Aborted` { reason }.
+ * `Aborted` { reason }. `DoesNotFit` says that a print is larger than its printer, or off its bed.
  */
 export class WindingError extends Error {
   readonly code: ErrorCode;

@@ -10,6 +10,8 @@ export interface Caller {
   call(request: Request, options: OrientOptions | undefined): unknown;
   /** Applies `f` to an answer of `call`. */
   then(answer: unknown, f: (value: unknown) => unknown): unknown;
+  /** The items of the answers to calls for parts of a list of numbers, which is an answer too, `size` numbers to a part. */
+  each(list: unknown, size: number, ask: (part: Float64Array) => unknown): unknown;
   /** Fails the way calls fail. */
   fail(error: WindingError): unknown;
   newHandle(): number;
@@ -42,6 +44,9 @@ function asBytes(data: Uint8Array | ArrayBuffer, transfer: boolean | undefined):
 }
 
 const forgotten = new FinalizationRegistry<() => void>((free) => free());
+
+/** Numbers that describe a layer, and how many of them make a block that is sliced together. */
+const LAYERS_AT_ONCE = 3 * 64;
 
 class BaseShape {
   readonly kind: 'soup' | 'cloud';
@@ -98,6 +103,11 @@ class BaseShape {
 
   slice(options?: object): unknown {
     return this.ask('slice', [forEngine(options)], options);
+  }
+
+  layers(options?: object): unknown {
+    const spans = this.ask('layerSpans', [forEngine(options)], options);
+    return this.caller.each(spans, LAYERS_AT_ONCE, (some) => this.ask('slice', [{ ...(forEngine(options) as object), spans: some }], options));
   }
 
   surface(options?: object): unknown {
@@ -165,6 +175,8 @@ function make(caller: Caller, method: string, args: unknown[], options: object |
 export function facade(caller: Caller): object {
   const parse = (kind: string | undefined) => (bytes: Uint8Array | ArrayBuffer, options?: ReadOptions & CallOptions) =>
     make(caller, 'parse', [asBytes(bytes, options?.transfer), kind, forEngine(options)], options);
+  const ofEngine = (method: string, args: unknown[], options?: CallOptions) =>
+    caller.call({ method, handle: 0, args }, options);
   const dispose = () => caller.dispose();
   return {
     info: caller.info,
@@ -181,8 +193,11 @@ export function facade(caller: Caller): object {
         return make(caller, 'cloud', [...arrays, forEngine(options)], options);
       },
     },
-    exportLayer: (layer: Layer, format: string) =>
-      caller.call({ method: 'exportLayer', handle: 0, args: [layer, format] }, undefined),
+    exportLayer: (layer: Layer, format: string) => ofEngine('exportLayer', [layer, format]),
+    toolpaths: (layers: Layer[], settings?: CallOptions) => ofEngine('toolpaths', [layers, forEngine(settings)], settings),
+    gcode: (paths: object, profile?: object) => ofEngine('gcode', [paths, profile]),
+    printSettings: ({ settings, profile, size }: { settings?: object; profile?: object; size?: number[] } = {}) =>
+      ofEngine('printSettings', [settings, profile, size]),
     dispose,
     [Symbol.dispose]: dispose,
   };

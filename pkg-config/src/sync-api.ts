@@ -1,7 +1,11 @@
 import type * as api from './api.js';
 
 /** The same, with plain values where promises were. */
-type Plain<T> = T extends (...args: infer A) => Promise<infer R> ? (...args: A) => R : T;
+type Plain<T> = T extends (...args: infer A) => Promise<infer R>
+  ? (...args: A) => R
+  : T extends (...args: infer A) => AsyncIterable<infer R>
+    ? (...args: A) => Iterable<R>
+    : T;
 type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
 
 export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud'> {

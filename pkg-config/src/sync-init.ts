@@ -26,6 +26,11 @@ class Direct implements Caller {
     return f(answer);
   }
 
+  *each(list: unknown, size: number, ask: (part: Float64Array) => unknown): Generator<unknown> {
+    const numbers = list as Float64Array;
+    for (let from = 0; from < numbers.length; from += size) yield* ask(numbers.slice(from, from + size)) as unknown[];
+  }
+
   fail(error: WindingError): never {
     throw error;
   }

@@ -108,11 +108,26 @@ pub fn slice_each(
     monitor: &dyn Monitor,
     take: &mut dyn FnMut(usize, Layer),
 ) -> Result<SliceReport, SliceError> {
+    let spans = plan.spans(field.bounds().min.z, field.bounds().max.z)?;
+    slice_spans(field, &spans, config, monitor, take)
+}
+
+/// [`slice_each`] of spans that are given: part of a plan's, so that its layers may be made as they are wanted.
+///
+/// # Errors
+/// As [`slice`].
+#[inline(never)]
+pub fn slice_spans(
+    field: &WindingField,
+    spans: &[Span],
+    config: &SliceConfig,
+    monitor: &dyn Monitor,
+    take: &mut dyn FnMut(usize, Layer),
+) -> Result<SliceReport, SliceError> {
     if !(config.simplify.is_finite() && config.simplify >= 0.0) {
         return Err(SliceError::BadSimplification(config.simplify));
     }
-    let spans = plan.spans(field.bounds().min.z, field.bounds().max.z)?;
-    let slicer = Slicer::new(field, &spans, config)?;
+    let slicer = Slicer::new(field, spans, config)?;
     // Two blocks for each thread between reports: enough to keep all busy, soon enough to cancel.
     let (blocks, at_once) = (slicer.blocks(), 2 * threads());
     for first in (0..blocks).step_by(at_once) {

@@ -10,6 +10,7 @@ mod job;
 mod options;
 #[cfg(feature = "pieces")]
 mod pieces;
+mod printing;
 mod queries;
 mod results;
 

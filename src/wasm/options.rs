@@ -200,6 +200,8 @@ pub struct SliceOptions {
     resolution: Option<usize>,
     mode: Option<SliceModeName>,
     simplify: Option<f64>,
+    /// Bottom, top and sample of each layer of a plan that was made before.
+    pub spans: Option<Vec<f64>>,
 }
 
 #[derive(Clone, Copy, Deserialize)]

@@ -5,6 +5,7 @@ use super::handle::Handle;
 use super::job::Job;
 use super::options::{self, AccuracyOptions, HeatMapOptions, SliceOptions, SurfaceOptions, VoxelOptions};
 use super::results;
+use crate::data::Layer;
 use crate::winding::Accuracy;
 use crate::{check, slice, solid, surface};
 use js_sys::{Array, Date, Float64Array, Object, Uint8Array};
@@ -86,8 +87,34 @@ impl Handle {
         let options: SliceOptions = options::from_js(options)?;
         let config = options.config();
         let field = self.field(None, job)?;
-        let layers = slice::slice(field, &options.plan(), &config, job).map_err(Failure::from)?;
+        let layers = match &options.spans {
+            None => slice::slice(field, &options.plan(), &config, job).map_err(Failure::from)?,
+            Some(numbers) => {
+                let span = |&[bottom, top, sample]: &[f64; 3]| slice::Span { bottom, top, sample };
+                let spans: Vec<slice::Span> = numbers.as_chunks().0.iter().map(span).collect();
+                let mut layers = vec![Layer::default(); spans.len()];
+                slice::slice_spans(field, &spans, &config, job, &mut |place, layer| layers[place] = layer)
+                    .map_err(Failure::from)?;
+                layers
+            }
+        };
         Ok(results::layers_to(&layers)?)
+    }
+
+    /// Bottom, top and sample of each layer that `slice` would make.
+    ///
+    /// # Errors
+    /// As [`Handle::winding_numbers`].
+    #[wasm_bindgen(js_name = layerSpans)]
+    pub fn layer_spans(&mut self, options: JsValue, job: &Job) -> Result<Float64Array, JsValue> {
+        let options: SliceOptions = options::from_js(options)?;
+        let bounds = self.field(None, job)?.bounds();
+        let spans = options
+            .plan()
+            .spans(bounds.min.z, bounds.max.z)
+            .map_err(|e| Failure::from(slice::SliceError::from(e)))?;
+        let numbers: Vec<f64> = spans.iter().flat_map(|s| [s.bottom, s.top, s.sample]).collect();
+        Ok(numbers_to(&numbers)?)
     }
 
     /// The closed surface where w equals a level.

@@ -52,13 +52,55 @@ for (const [name, start] of Object.entries(entries)) {
       assert.deepEqual(layers.map((l) => [l.zBottom, l.zSample, l.zTop]), [[0, 2, 4], [4, 5, 6], [6, 7, 8], [8, 9, 10]]);
       for (const { polygons } of layers) {
         assert.deepEqual([polygons.length, polygons[0].holes.length], [1, 0]);
-        near(area(polygons[0].outer), 100, 6);
+        near(area(polygons[0].outer), 100, 1e-12);
+        assert.equal(polygons[0].outer.length, 8, 'four corners, exact');
       }
       const [low, high] = await soup.slice({ heights: new Float64Array([1, 9]), tolerance: 0.5 });
       assert.deepEqual([low.zSample, high.zSample], [1, 9]);
       assert.deepEqual((await soup.slice({ heights: [11], resolution: 8 }))[0].polygons, []);
       const svg = new TextDecoder().decode(await fw.exportLayer(low, 'svg'));
       assert.match(svg, /^<svg [^]*<path [^]*<\/svg>\s*$/);
+    });
+    await t.test('layers come one by one, as slice gives them', async () => {
+      const options = { layerHeight: 0.1, sampleAt: 'top' };
+      const all = await soup.slice(options);
+      const some = [];
+      for await (const layer of soup.layers(options)) some.push(layer);
+      assert.equal(some.length, 100);
+      assert.deepEqual(some, all);
+      for await (const layer of soup.layers(options)) {
+        assert.equal(layer.zBottom, 0);
+        break;
+      }
+    });
+    await t.test('toolpaths and a program for a printer', async () => {
+      const layers = await soup.slice({ layerHeight: 0.2 });
+      const paths = await fw.toolpaths(layers, { perimeters: 2, lineWidth: 0.4, topLayers: 0, bottomLayers: 0, density: 0 });
+      assert.equal(paths.layers.length, 50);
+      const [{ points, starts, kinds, widths, flags, height }] = paths.layers;
+      assert.deepEqual([starts.length, Array.from(kinds, (kind) => paths.kinds[kind]).sort()], [3, ['innerWall', 'outerWall']]);
+      near(height, 0.2, 1e-12);
+      assert.deepEqual([Array.from(widths), flags[0] & 1, points.length], [[0.4, 0.4], 1, 16]);
+      const { bytes, estimate, shift, warnings } = await fw.gcode(paths, { bedWidth: 100, bedDepth: 100, placement: 'centered' });
+      const text = new TextDecoder().decode(bytes);
+      assert.equal(text.match(/^;LAYER:/gm).length, 50);
+      // Two squares, half a line and a line and a half inside: 4 (9.6 + 8.8) mm, 0.08 mm² thick, 50 times.
+      near(estimate.filamentVolume, 50 * 4 * (9.6 + 8.8) * 0.08, 0.01);
+      assert.deepEqual([shift, warnings], [[45, 45, 0], []]);
+      const { settings, profile } = await fw.printSettings({ settings: { density: 0.5 }, profile: { speeds: { top: 33 } } });
+      assert.deepEqual([settings.density, settings.perimeters, profile.speeds.top, profile.bedWidth], [0.5, 2, 33, 220]);
+      const large = async () => fw.printSettings({ size: [260, 10, 10] });
+      await assert.rejects(large, { code: 'DoesNotFit', message: 'the model is 260 mm wide, the bed 220 mm' });
+      await assert.rejects(async () => fw.gcode(paths, { bedWidth: 8 }), { code: 'DoesNotFit' });
+      await assert.rejects(async () => fw.toolpaths(layers, { lineWidth: -1 }), { code: 'InvalidArgument', message: /lineWidth/ });
+      await assert.rejects(async () => fw.toolpaths(layers, { linewidth: 1 }), { code: 'InvalidArgument', message: /linewidth/ });
+      await assert.rejects(async () => fw.gcode({ layers: [{}] }), { code: 'InvalidArgument', message: /toolpaths/ });
+    });
+    await t.test('modes of slicing', async () => {
+      const [{ polygons }] = await soup.slice({ heights: [5], mode: 'largest', simplify: 0.1 });
+      assert.deepEqual([polygons.length, polygons[0].outer.length], [1, 8]);
+      await assert.rejects(async () => soup.slice({ mode: 'odd' }), { code: 'InvalidArgument', message: /odd/ });
+      await assert.rejects(async () => soup.slice({ simplify: -1 }), { code: 'InvalidArgument', message: /simplified/ });
     });
     await t.test('surface', async () => {
       const mesh = await soup.surface({ resolution: 12 });

@@ -1,0 +1,143 @@
+// Toolpaths and printers, as the package's callers see them. Lengths are in millimetres, angles in degrees.
+import type { Warning } from './api.js';
+
+/** How layers are filled with lines. `printSettings` gives the defaults. */
+export interface ToolpathSettings {
+  lineWidth?: number;
+  /** Lines around each part. */
+  perimeters?: number;
+  /** How far neighbouring walls overlap, as a share of the line's width. */
+  wallOverlap?: number;
+  /** How far infill and skins reach into the innermost wall, as a share of the line's width. */
+  infillOverlap?: number;
+  infill?: 'rectilinear' | 'grid' | 'gyroid';
+  /** Share of the inside that infill covers, from 0 to 1. */
+  density?: number;
+  /** Direction of infill, from +x towards +y. */
+  angle?: number;
+  bottomLayers?: number;
+  topLayers?: number;
+  /** Where walls start: where the nozzle gets to first, at the back, above each other, or anywhere. */
+  seam?: 'nearest' | 'rear' | 'aligned' | 'random';
+  /** Grows all contours by this, or shrinks them where it is negative. */
+  xyCompensation?: number;
+  /** Shrinks the first layer by this. */
+  elephantFoot?: number;
+  /** Narrower parts of a layer are left out, with a warning. */
+  minimumFeature?: number;
+  /** Walls too thin for two lines get a single one, or are reported. */
+  thinWalls?: 'singleLine' | 'report';
+  /** Walls that lean out by more than this from the vertical are overhangs. */
+  overhangAngle?: number;
+  /** Whether skins over nothing run straight from one support to the other. */
+  bridges?: boolean;
+  /** Vertices go that lie within this of the line without them. */
+  detail?: number;
+}
+
+/** How often something was met, and its area in square millimetres, over all layers. */
+export interface Regions {
+  count: number;
+  area: number;
+}
+
+/** The lines of one layer in the order they are laid. Path k has the points (xy) from `starts[k]` to `starts[k + 1]`. */
+export interface LayerPaths {
+  /** Where the nozzle lays them, in the model's frame. */
+  z: number;
+  height: number;
+  points: Float64Array;
+  /** One more than paths. */
+  starts: Uint32Array;
+  /** Of each path, the place of its kind in `Toolpaths.kinds`. */
+  kinds: Uint8Array;
+  widths: Float64Array;
+  /** Bit 0: the path is closed, its first point not repeated; bit 1: the nozzle gets to it all over the inside. */
+  flags: Uint8Array;
+}
+
+export type PathKind =
+  | 'outerWall' | 'innerWall' | 'thinWall' | 'gap' | 'overhang' | 'bottom' | 'top' | 'solid' | 'bridge' | 'infill';
+
+export interface Toolpaths {
+  /** Bottom to top. */
+  layers: LayerPaths[];
+  kinds: PathKind[];
+  report: {
+    /** Parts that have no room for a line along either side, and how many of them got a single one. */
+    thinWalls: Regions;
+    singleLines: number;
+    /** Parts narrower than `minimumFeature`. */
+    dropped: Regions;
+    bridges: Regions;
+    /** Skins over nothing that want support. */
+    overhangs: Regions;
+    /** Millimetres of walls that lean out too far. */
+    overhangingWalls: number;
+  };
+  warnings: Warning[];
+}
+
+/** A machine and what is loaded, as a JSON file may hold it. Temperatures in °C, speeds in millimetres a second. */
+export interface PrinterProfile {
+  name?: string;
+  bedWidth?: number;
+  bedDepth?: number;
+  /** The largest z. */
+  height?: number;
+  /** Where x = 0, y = 0 is: the front left corner of the bed, or its middle. */
+  origin?: 'corner' | 'center';
+  /** Where its coordinates say if that is on the bed, else in the middle; where they say; or in the middle. */
+  placement?: 'onBed' | 'asIs' | 'centered';
+  nozzleDiameter?: number;
+  filamentDiameter?: number;
+  /** Grams per cubic centimetre. */
+  filamentDensity?: number;
+  nozzleTemperature?: number;
+  bedTemperature?: number;
+  /** From the second layer on, from 0 to 1. */
+  fan?: number;
+  speeds?: {
+    travel?: number;
+    firstLayer?: number;
+    outerWall?: number;
+    innerWall?: number;
+    infill?: number;
+    solid?: number;
+    top?: number;
+    bridge?: number;
+    overhang?: number;
+  };
+  /** Millimetres per second squared. */
+  acceleration?: number;
+  junctionDeviation?: number;
+  retraction?: { length?: number; speed?: number; minimumTravel?: number; lift?: number };
+  /** G-code before and after the print; names in braces such as `{nozzleTemperature}` are replaced. */
+  start?: string;
+  end?: string;
+}
+
+export type RequiredProfile = Required<Omit<PrinterProfile, 'speeds' | 'retraction'>> & {
+  speeds: Required<NonNullable<PrinterProfile['speeds']>>;
+  retraction: Required<NonNullable<PrinterProfile['retraction']>>;
+};
+
+export interface GCode {
+  bytes: Uint8Array;
+  /** What was added to the model's coordinates. */
+  shift: [number, number, number];
+  estimate: {
+    /** Without heating. */
+    seconds: number;
+    /** Millimetres. */
+    filamentLength: number;
+    /** Cubic millimetres. */
+    filamentVolume: number;
+    /** Grams. */
+    filamentMass: number;
+    extrudedLength: number;
+    travelLength: number;
+    retractions: number;
+  };
+  warnings: Warning[];
+}
