@@ -8,7 +8,6 @@ use fast_winding::math::{Aabb, Vec3};
 use fast_winding::metrics::NearestPoints;
 use fast_winding::surface::{SurfaceConfig, SurfaceError, extract, suggested_level};
 use fast_winding::winding::{FieldConfig, WindingField};
-use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 fn field(shape: impl Into<fast_winding::data::Shape>) -> WindingField {
@@ -17,33 +16,6 @@ fn field(shape: impl Into<fast_winding::data::Shape>) -> WindingField {
 
 fn surface_of(cloud: OrientedCloud, config: &SurfaceConfig) -> SurfaceMesh {
     extract(&field(cloud), config, &Silent).unwrap()
-}
-
-/// Asserts that no directed edge appears twice and that the triangles around each vertex form one fan; gives V − E + F and the
-/// number of edges with one triangle.
-fn topology(mesh: &SurfaceMesh) -> (i64, usize) {
-    let sides = |t: &[u32; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
-    let directed: HashSet<(u32, u32)> = mesh.triangles.iter().flat_map(sides).collect();
-    assert_eq!(directed.len(), 3 * mesh.triangles.len(), "an edge is used twice in one direction");
-    let open = directed.iter().filter(|&&(a, b)| !directed.contains(&(b, a))).count();
-    let mut fans: HashMap<u32, HashMap<u32, u32>> = HashMap::new();
-    for t in &mesh.triangles {
-        (0..3).for_each(|k| {
-            fans.entry(t[k]).or_default().insert(t[(k + 1) % 3], t[(k + 2) % 3]);
-        });
-    }
-    for (vertex, next) in &fans {
-        let ends: HashSet<u32> = next.values().copied().collect();
-        let first = next.keys().find(|v| !ends.contains(v)).or(next.keys().next()).unwrap();
-        let (mut at, mut steps) = (*first, 0);
-        while let Some(to) = next.get(&at).filter(|_| steps < next.len()) {
-            (at, steps) = (*to, steps + 1);
-        }
-        assert_eq!(steps, next.len(), "vertex {vertex} joins two fans");
-    }
-    let edges = (directed.len() + open) / 2;
-    assert_eq!(fans.len(), mesh.positions.len(), "a vertex has no triangle");
-    (fans.len() as i64 - edges as i64 + mesh.triangles.len() as i64, open)
 }
 
 /// The part of a cloud for which `kept` holds.

@@ -159,6 +159,8 @@ export interface SurfaceOptions extends CallOptions {
   smoothing?: number;
   /** For open scans: surface farther from any point of the cloud than this many distances between points is left out; then it is open. */
   trim?: number;
+  /** Degrees between two parts of the surface from which the edge between them is kept sharp, such as 35: 10 to 120. Without it cells cut off edges and corners. */
+  sharp?: number;
 }
 
 /** w over a plane z = constant, a little beyond the bounds. */

@@ -30,6 +30,11 @@ impl Nearest {
         self.search(bvh, points, center, 1, f64::INFINITY).first().copied()
     }
 
+    /// The `count` points nearest to `center`, in the order of [`Nearest::find`]; fewer where there are not as many.
+    pub fn around(&mut self, bvh: &Bvh, points: &[Vec3], center: Vec3, count: usize) -> &[(f64, u32)] {
+        self.search(bvh, points, center, count, f64::INFINITY)
+    }
+
     /// The `count` points nearest to `center`, none farther than the square root of `limit`.
     fn search(
         &mut self,
@@ -110,6 +115,8 @@ mod tests {
                 let distances = points.iter().map(|p| p.distance_squared(center)).zip(0..);
                 let expected = distances.min_by(|a, b| a.partial_cmp(b).unwrap());
                 assert_eq!(nearest.nearest_to(&bvh, &ordered, center), expected);
+                let several = nearest.around(&bvh, &ordered, center, 5);
+                assert_eq!((several.len(), several.first().copied()), (points.len().min(5), expected));
             }
         }
     }

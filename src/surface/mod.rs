@@ -2,7 +2,9 @@
 mod cells;
 mod components;
 mod level;
+mod points;
 mod samples;
+mod sharp;
 mod sides;
 mod trim;
 
@@ -14,7 +16,9 @@ use crate::math::Vec3;
 use crate::winding::{FieldError, WindingField};
 use cells::{area, grid};
 use components::keep_large;
+use points::Points;
 use samples::Samples;
+use sharp::{Limits, OfCloud, OfSoup, sharpen, tree_of};
 use sides::Sides;
 use trim::Reach;
 
@@ -40,11 +44,16 @@ pub struct SurfaceConfig {
     /// triangle by triangle, so that rims are jagged. It is then open, but still manifold. 1.5 leaves no holes between points that are
     /// spaced evenly, 3 none between points drawn at random.
     pub trim: Option<f64>,
+    /// Degrees between the normals of two parts of the surface from which the edge where they meet is sharp, such as
+    /// [`SurfaceConfig::SHARP`]: vertices are then put on it, and in corners. Without it cells cut off what is sharp.
+    pub sharp: Option<f64>,
 }
 
 impl SurfaceConfig {
     /// Cells along the longest side of a soup.
     pub const SOUP_RESOLUTION: usize = 64;
+    /// An angle that keeps the edges of parts that are made.
+    pub const SHARP: f64 = 35.0;
 }
 
 /// Why a surface could not be made.
@@ -64,6 +73,8 @@ pub enum SurfaceError {
     BadTrim(f64),
     #[error("points cannot be smoothed over {0} distances between them: a finite number above 0 is needed")]
     BadSmoothing(f64),
+    #[error("edges cannot be sharp from {0} degrees: an angle from 10 to 120 is needed")]
+    BadSharp(f64),
     #[error("cells of {spacing} are too small to smooth over {deviation}: two thirds of that is needed")]
     SmallCells { spacing: f64, deviation: f64 },
     #[error("only surfaces of clouds are {0}")]
@@ -129,17 +140,28 @@ pub fn extract(
     if !level.is_finite() || level == 0.0 && config.trim.is_none() {
         return Err(SurfaceError::BadLevel(level));
     }
+    let limits = config.sharp.map(Limits::new);
     let mut mesh = match field.shape() {
-        Shape::Soup(_) => {
+        Shape::Soup(soup) => {
             field.prepare_single_points();
             let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
-            trace_surface(&grid, &seeds, &Sides { field, level }, monitor)?
+            let mut mesh = trace_surface(&grid, &seeds, &Sides { field, level }, monitor)?;
+            if let Some(limits) = limits {
+                let evidence =
+                    OfSoup { soup, field, level, bvh: tree_of(soup), spacing: grid.spacing, limits };
+                sharpen(&mut mesh, &evidence, grid.spacing, limits, monitor)?;
+            }
+            mesh
         }
         Shape::Cloud(cloud) => {
             let seeds = cells_of_points(cloud.points(), grid.origin, Vec3::splat(grid.spacing));
             let reach = config.trim.map(|trim| Reach::new(cloud, trim, monitor)).transpose()?;
             let samples = Samples { field, level, reach: reach.as_ref(), spacing: grid.spacing, blur };
             let mut mesh = trace_surface(&grid, &seeds, &samples, monitor)?;
+            if let Some(limits) = limits {
+                let evidence = OfCloud { cloud, points: Points::new(cloud.points()), limits };
+                sharpen(&mut mesh, &evidence, grid.spacing, limits, monitor)?;
+            }
             if let Some(reach) = &reach {
                 reach.trim(&mut mesh, monitor)?;
             }
@@ -160,6 +182,9 @@ pub fn extract(
 fn check(shape: &Shape, config: &SurfaceConfig) -> Result<(), SurfaceError> {
     if let Some(share) = config.min_component.filter(|share| !(0.0..=1.0).contains(share)) {
         return Err(SurfaceError::BadShare(share));
+    }
+    if let Some(sharp) = config.sharp.filter(|sharp| !(10.0..=120.0).contains(sharp)) {
+        return Err(SurfaceError::BadSharp(sharp));
     }
     let is_size = |size: &f64| size.is_finite() && *size > 0.0;
     if let Some(trim) = config.trim.filter(|trim| !is_size(trim)) {

@@ -1,19 +1,16 @@
 //! Which places are near enough to a cloud's points to believe in the surface there.
 use super::components::{keep_triangles, split_fans};
-use crate::bvh::{Bvh, Nearest};
+use super::points::Points;
+use crate::bvh::Nearest;
 use crate::data::{Cancelled, Monitor, OrientedCloud, SurfaceMesh, fill_in_blocks};
-use crate::math::{Aabb, Vec3};
+use crate::math::Vec3;
 
 /// Points whose areas together tell how far apart points are: one cell alone varies by half its size.
 const AROUND: usize = 9;
-/// Most points in a leaf of the tree.
-const LEAF_SIZE: usize = 8;
 
 /// Balls around the points of a cloud.
 pub struct Reach {
-    bvh: Bvh,
-    /// In the order of the tree.
-    points: Vec<Vec3>,
+    points: Points,
     /// By the points' own numbers.
     radii: Vec<f64>,
 }
@@ -21,24 +18,22 @@ pub struct Reach {
 impl Reach {
     /// Balls of `trim` times the edge of the square that a point and those around have to themselves.
     pub fn new(cloud: &OrientedCloud, trim: f64, monitor: &dyn Monitor) -> Result<Reach, Cancelled> {
-        let boxes: Vec<Aabb> = cloud.points().iter().map(|p| Aabb { min: *p, max: *p }).collect();
-        let bvh = Bvh::build(&boxes, LEAF_SIZE);
-        let points: Vec<Vec3> = bvh.items().iter().map(|&i| cloud.points()[i as usize]).collect();
+        let points = Points::new(cloud.points());
         let radius = |place: usize, nearest: &mut Nearest| {
-            let near = nearest.find(&bvh, &points, place, AROUND);
+            let near = nearest.find(&points.bvh, &points.places, place, AROUND);
             let area: f64 = near.iter().map(|(_, point)| cloud.areas()[*point as usize]).sum();
             trim * (area / near.len() as f64).sqrt()
         };
-        let mut in_order = vec![0.0; points.len()];
+        let mut in_order = vec![0.0; points.places.len()];
         fill_in_blocks(&mut in_order, radius, "distances", monitor)?;
-        let mut radii = vec![0.0; points.len()];
-        bvh.items().iter().zip(in_order).for_each(|(point, radius)| radii[*point as usize] = radius);
-        Ok(Reach { bvh, points, radii })
+        let mut radii = vec![0.0; points.places.len()];
+        points.bvh.items().iter().zip(in_order).for_each(|(point, radius)| radii[*point as usize] = radius);
+        Ok(Reach { points, radii })
     }
 
     /// Whether a place is in the ball of the point nearest to it, or no farther from it than `slack`.
     pub fn holds(&self, place: Vec3, slack: f64, nearest: &mut Nearest) -> bool {
-        let found = nearest.nearest_to(&self.bvh, &self.points, place);
+        let found = self.points.nearest_to(place, nearest);
         found.is_some_and(|(squared, point)| squared.sqrt() <= self.radii[point as usize] + slack)
     }
 

@@ -114,6 +114,7 @@ impl From<SurfaceError> for Failure {
             | SurfaceError::BadShare(_)
             | SurfaceError::BadTrim(_)
             | SurfaceError::BadSmoothing(_)
+            | SurfaceError::BadSharp(_)
             | SurfaceError::SmallCells { .. }
             | SurfaceError::OnlyOfClouds(_) => Failure::invalid(&error),
         }

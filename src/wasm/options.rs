@@ -254,6 +254,7 @@ pub struct SurfaceOptions {
     min_component: Option<f64>,
     smoothing: Option<f64>,
     trim: Option<f64>,
+    sharp: Option<f64>,
 }
 
 impl SurfaceOptions {
@@ -265,6 +266,7 @@ impl SurfaceOptions {
             min_component: self.min_component,
             smoothing: self.smoothing,
             trim: self.trim,
+            sharp: self.sharp,
         }
     }
 }

@@ -4,9 +4,9 @@
 //! surfaces ours    MODEL [--points N] [--noise S] [--output FILE] [OPTIONS]   samples, makes a surface, compares
 //! surfaces cloud   MODEL --output FILE [--points N] [--noise S]    the same samples as raw f64: point, normal
 //! surfaces compare MODEL FILE                                      a surface that another program made of them
-//! surfaces soup    MODEL [--resolution N]                          the time that a surface of the model itself takes
+//! surfaces soup    MODEL [--resolution N] [--sharp A] [--output FILE]   a surface of the model itself, compared with it
 //! ```
-//! `OPTIONS` are --resolution, --level, --min-component, --trim and --smoothing, as in `SurfaceConfig`, and `--bounded 1`, as in
+//! `OPTIONS` are --resolution, --level, --min-component, --trim, --smoothing and --sharp, as in `SurfaceConfig`, and `--bounded 1`, as in
 //! `FieldConfig`; `--half 1` leaves half of the model, an open scan. `--normals` estimates normals rather than take the true ones, by
 //! propagation, consistency, stochastic, or, with the narrowest widths, SD-A-G, SD-A-GB or LM-AB-GB. Noise is a standard deviation along each axis, in thousandths of the diagonal.
 //!
@@ -114,6 +114,7 @@ fn ours(model: &TriangleSoup, options: &Options) {
         min_component: options.number("min-component"),
         trim: options.number("trim"),
         smoothing: options.number("smoothing"),
+        sharp: options.number("sharp"),
         ..SurfaceConfig::default()
     };
     let (start, began) = (Instant::now(), processor_time());
@@ -134,15 +135,19 @@ fn ours(model: &TriangleSoup, options: &Options) {
     );
     let (vertices, normals) = (mesh.positions.len(), of_vertices(model, &mesh));
     let soup = TriangleSoup::from(mesh);
-    if let Some(path) = options.0.get("output") {
-        let mut bytes = Vec::new();
-        io::write_soup(&soup, MeshFormat::Ply, &mut bytes).expect("memory takes all");
-        std::fs::write(path, bytes).expect("the surface can be written");
-    }
+    write(&soup, options);
     println!(
         "{{{times}\"vertices\": {vertices}, \"vertexNormals\": {normals:.5}, {}}}",
         compare(model, &soup)
     );
+}
+
+fn write(surface: &TriangleSoup, options: &Options) {
+    if let Some(path) = options.0.get("output") {
+        let mut bytes = Vec::new();
+        io::write_soup(surface, MeshFormat::Ply, &mut bytes).expect("memory takes all");
+        std::fs::write(path, bytes).expect("the surface can be written");
+    }
 }
 
 /// Bytes of this process in memory now, or most of them since the last question; 0 where the system does not tell.
@@ -170,12 +175,15 @@ fn soup(model: &TriangleSoup, options: &Options) {
     let start = Instant::now();
     let field = WindingField::new(model.clone(), FieldConfig::default());
     let built = start.elapsed().as_secs_f64();
-    let config = SurfaceConfig { resolution, ..SurfaceConfig::default() };
+    let config = SurfaceConfig { resolution, sharp: options.number("sharp"), ..SurfaceConfig::default() };
     let mesh = extract(&field, &config, &Silent).expect("nothing cancels");
     let surface = start.elapsed().as_secs_f64() - built;
-    let (triangles, volume) = (mesh.triangles.len(), mesh.volume());
+    let volume = mesh.volume();
+    let soup = TriangleSoup::from(mesh);
+    write(&soup, options);
     println!(
-        "{{\"field\": {built:.3}, \"surface\": {surface:.3}, \"triangles\": {triangles}, \"volume\": {volume:.6}}}"
+        "{{\"field\": {built:.3}, \"surface\": {surface:.3}, \"volume\": {volume:.6}, {}}}",
+        compare(model, &soup)
     );
 }
 
