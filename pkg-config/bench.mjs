@@ -1,5 +1,5 @@
 // Runs the benches: `native` (criterion), `wasm` (Node, beside native), `scale` (up to ten million triangles), `browser`
-// (Chromium, beside three-mesh-bvh), `peers` (beside other implementations) and `figures` (those of the paper, as tables and
+// (Chromium, beside three-mesh-bvh), `layers` (beside manifold-3d and trimesh), `peers` (beside other implementations) and `figures` (those of the paper, as tables and
 // as plots in docs/figures), or
 // those named. What begins with -- and all after it goes to each of them; for the figures it is `--models` and files:
 //     npm --prefix www run bench peers -- --rounds 5
@@ -24,6 +24,10 @@ const BENCHES = {
   async wasm(options) {
     await assemble();
     await run('node', [script('wasm.mjs'), ...options], { cwd: root });
+  },
+  async layers(options) {
+    await assemble();
+    await run('node', [script('layers.mjs'), ...options], { cwd: root });
   },
   async scale() {
     await assemble();
