@@ -12,15 +12,16 @@ const AROUND: usize = 12;
 const MOST_GROUPS: usize = 3;
 /// Two points lie in one surface if the plane halfway between theirs passes both within this many distances between points.
 const STEP: f64 = 0.25;
-/// Root mean square of what a group may leave of its plane, in distances between points. With 0.12 some of the noise of half a distance
-/// passes for edges, with 0.05 noise of a fourteenth hides a tenth of the true ones.
+/// Root mean square of what a group may leave of its plane, in distances between points. With 0.12, noise of half a distance adds 300
+/// triangles to 210,000 of raised letters, with 0.08 60, with 0.05 none; but 0.05 leaves out half of what 0.12 cuts of a clean dragon.
 const ROUGH: f64 = 0.08;
 /// How far a place may be from the plane of its group, in distances between points.
 const FAR: f64 = 0.7;
 /// Points whose normals are farther from the surface's than this cosine lie on its other side, where it is thin.
 const BEHIND: f64 = -0.2;
 
-/// Planes that meet, and neighbours in each: two of an edge's planes, one of a corner's. Three of an edge's leave half of the corners.
+/// Planes that meet, and neighbours in each, together: two in each of an edge's planes, one in each of a corner's. With three in each
+/// fewer than half of the corners of cubes are left.
 const SHOWN: usize = 4;
 /// Sine from which a normal points along an edge rather than away from it.
 const ASIDE: f64 = 0.5;

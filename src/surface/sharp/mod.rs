@@ -57,7 +57,7 @@ impl Limits {
     }
 }
 
-/// Times that edges are flipped: the third helps few.
+/// Times that edges are flipped: nearly all that helps is in the first.
 const FLIPPED: usize = 3;
 
 /// Gives a surface traced in cells of size `spacing` the sharp edges and corners of its data. It stays manifold, closed if it was,

@@ -1,7 +1,7 @@
 """Surfaces of clouds: ours beside Open3D's screened Poisson reconstruction, on the same points and normals.
 
     python3 tests/bench/peers/surfaces.py [--rounds 3] [--threads 2] [--noise S] [--smoothing D] [--points N,...]
-        [--normals METHOD,...] [--models NAME,...]
+        [--normals METHOD,...] [--models NAME,...] [--sharp A]
 
 Clouds are sampled from closed models. Our time includes areas and the field. Distances are in percent of the model's diagonal, as
 tests/bench/surfaces.rs has them: "excess" is the chamfer distance beyond that between two samplings of the truth, "off" the mean
@@ -34,6 +34,7 @@ def main():
     arguments.add_argument("--threads", type=int, default=os.cpu_count())
     arguments.add_argument("--noise", type=float, default=0.0)
     arguments.add_argument("--smoothing", type=float, help="of ours, in distances between points")
+    arguments.add_argument("--sharp", type=float, help="of ours, in degrees")
     arguments.add_argument("--models", default=",".join(MODELS))
     arguments.add_argument("--points", default=",".join(map(str, POINTS)))
     arguments.add_argument("--normals", default="truth")
@@ -55,6 +56,7 @@ def compare(program, model, count, normals, options):
     cloud_options = ["--points", str(count), "--noise", str(options.noise)]
     cloud_options += [] if normals == "truth" else ["--normals", normals]
     smoothing = ["--smoothing", str(options.smoothing)] if options.smoothing else []
+    sharp = ["--sharp", str(options.sharp)] if options.sharp else []
     with tempfile.TemporaryDirectory(dir=environment.MODELS.parent) as folder:
         cloud, surface = f"{folder}/cloud.f64", f"{folder}/surface.ply"
         subprocess.run([program, "cloud", model, "--output", cloud, *cloud_options], check=True)
@@ -62,7 +64,7 @@ def compare(program, model, count, normals, options):
         times, own, ours = [], [], None
         for _ in range(options.rounds):
             times.append(environment.run_measured(peer, options.threads)["total"])
-            ours = environment.run_measured([program, "ours", model, *cloud_options, *smoothing], options.threads)
+            ours = environment.run_measured([program, "ours", model, *cloud_options, *smoothing, *sharp], options.threads)
             own.append(ours["total"])
         theirs = environment.run_measured([program, "compare", model, surface], options.threads)
     ours["total"], theirs["total"] = statistics.median(own), statistics.median(times)
