@@ -208,6 +208,7 @@ struct Writer {
     /// Millimetres a minute.
     feed: f64,
     kind: &'static str,
+    width: f64,
     /// Filament not written yet: what rounding left.
     owed: f64,
 }
@@ -216,7 +217,7 @@ impl Writer {
     fn step(&mut self, step: Step) {
         match step {
             Step::Layer { number, z, height } => {
-                self.kind = "";
+                (self.kind, self.width) = ("", 0.0);
                 let _ = writeln!(
                     self.text,
                     ";LAYER:{number}\n;Z:{}\n;HEIGHT:{}",
@@ -229,7 +230,10 @@ impl Writer {
                     self.kind = type_of(kind);
                     let _ = writeln!(self.text, ";TYPE:{}", self.kind);
                 }
-                let _ = writeln!(self.text, ";WIDTH:{}", Number(width, 3));
+                if self.width != width {
+                    self.width = width;
+                    let _ = writeln!(self.text, ";WIDTH:{}", Number(width, 3));
+                }
             }
             Step::Fan(speed) => {
                 let _ = writeln!(self.text, "M106 S{}", Number(255.0 * speed, 0));

@@ -4,6 +4,21 @@
 //! A line's cross-section is a rectangle: its volume is width × layer height × length, and so much filament is pushed. Walls lie
 //! half a line's width inside the outline, neighbours one width apart; what is left inside is infill, or solid where a layer nearby
 //! is open.
+//!
+//! ```
+//! use fast_winding::data::{Layer, Polygon, Silent};
+//! use fast_winding::math::Vec2;
+//! use fast_winding::print::{PrinterProfile, ToolpathSettings, gcode, toolpaths};
+//!
+//! let outer = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(Vec2::from).to_vec();
+//! let polygons = vec![Polygon { outer, holes: vec![] }]; // of each layer, as `slice::slice` gives them
+//! let layer = Layer { z_bottom: 0.0, z_top: 0.2, z_sample: 0.1, polygons };
+//! let paths = toolpaths(&[layer], &ToolpathSettings::default(), &Silent)?;
+//! assert!((paths.volume() - 20.0 * 20.0 * 0.2).abs() < 2.0);
+//! let program = gcode(&paths, &PrinterProfile::default())?;
+//! assert!(program.text.contains(";TYPE:WALL-OUTER"));
+//! # Ok::<(), fast_winding::print::PrintError>(())
+//! ```
 mod areas;
 mod estimate;
 mod gcode;
