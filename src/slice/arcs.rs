@@ -15,6 +15,8 @@ const LONGEST: f64 = 1.0 / 64.0;
 const SHORTEST: f64 = 64.0;
 /// In shortest steps: an end this near is reached.
 const NEAR: f64 = 8.0;
+/// Within the tolerance an end is reached if all others are this many times as far.
+const ALONE: f64 = 16.0;
 /// Places on the circle around the end of a path where an arc may start.
 const AROUND: usize = 40;
 /// Angles to both sides of a part that ends at the middle of a circle at which it is looked at besides.
@@ -22,9 +24,9 @@ const BESIDE: [f64; 4] = [1e-5, 3e-4, 5e-3, 0.04];
 /// Steps to a root on a circle.
 const MOST_ROOT_STEPS: usize = 160;
 /// Differences from the threshold that are none.
-const FLAT: f64 = 1e-11;
+const FLAT: f64 = 1e-10;
 /// Angles to both sides of the last step in which the next is looked for.
-const TURNS: [f64; 3] = [0.35, 1.0, 2.2];
+const TURNS: [f64; 4] = [0.05, 0.35, 1.0, 2.2];
 /// Steps of an arc.
 const MOST_STEPS: usize = 1_000;
 
@@ -33,6 +35,13 @@ pub(super) struct Arc {
     /// After the start; the last is the end.
     pub points: Vec<Vec2>,
     pub end: Vec2,
+}
+
+/// An angle on a circle, and how far inside the field is there.
+#[derive(Clone, Copy)]
+struct End {
+    angle: f64,
+    depth: f64,
 }
 
 /// Follows arcs.
@@ -109,42 +118,48 @@ impl<'a> Arcs<'a> {
         let inside = self.plane.all_inside(&circle);
         let begins = (0..angles.len() - 1).filter(|k| !inside[*k] && inside[k + 1]);
         begins
-            .map(|k| Vec2::from_angle(self.root(center, radius, angles[k], angles[k + 1])))
+            .map(|k| {
+                let ends = [angles[k], angles[k + 1], angles[k], angles[k + 1]];
+                let depths = self.depths(center, radius, ends);
+                let [from, to] = [0, 1].map(|i| End { angle: ends[i], depth: depths[i] });
+                Vec2::from_angle(self.root(center, radius, from, to))
+            })
             .filter(|direction| !self.is_on_section(center + radius * *direction))
             .collect()
     }
 
-    /// The angle between two, outside and inside, at which the inside begins: by false position, which halves its steps where the
-    /// field jumps.
-    fn root(&self, center: Vec2, radius: f64, outside: f64, inside: f64) -> f64 {
-        let depth = |angle: f64| self.plane.depth(center + radius * Vec2::from_angle(angle));
-        let (mut low, mut high) = ((outside, depth(outside)), (inside, depth(inside)));
-        let mut last_kept = 0;
-        for step in 0..MOST_ROOT_STEPS {
-            let share = low.1 / (low.1 - high.1);
-            // Now and then by halves: at a jump false position alone creeps.
-            let share = if share.is_finite() && step % 4 != 3 { share.clamp(0.0, 1.0) } else { 0.5 };
-            let angle = low.0 + share * (high.0 - low.0);
-            let value = depth(angle);
-            if value.abs() < FLAT || (high.0 - low.0).abs() * radius < 1e-2 * self.plane.aside {
-                return angle;
+    fn depths(&self, center: Vec2, radius: f64, angles: [f64; 4]) -> [f64; 4] {
+        self.plane.depths(angles.map(|angle| center + radius * Vec2::from_angle(angle)))
+    }
+
+    /// The angle between two, outside and inside, at which the inside begins: by false position with a place on each side of it, and
+    /// by halves where the field jumps.
+    fn root(&self, center: Vec2, radius: f64, outside: End, inside: End) -> f64 {
+        let (mut low, mut high) = (outside, inside);
+        let mut beside = 0.02;
+        for _ in 0..MOST_ROOT_STEPS {
+            let width = high.angle - low.angle;
+            if width.abs() * radius < 1e-2 * self.plane.aside {
+                break;
             }
-            // The end that stays twice counts half (Illinois).
-            if value >= 0.0 {
-                high = (angle, value);
-                if last_kept == 1 {
-                    low.1 *= 0.5;
+            let share = (low.depth / (low.depth - high.depth)).clamp(beside, 1.0 - beside);
+            let mut shares = [share - beside, share, share + beside, 0.5];
+            shares.sort_by(f64::total_cmp);
+            let angles = shares.map(|share| low.angle + share * width);
+            let depths = self.depths(center, radius, angles);
+            for (angle, depth) in angles.into_iter().zip(depths) {
+                if depth.abs() < FLAT {
+                    return angle;
                 }
-                last_kept = 1;
-            } else {
-                low = (angle, value);
-                if last_kept == -1 {
-                    high.1 *= 0.5;
+                if depth >= 0.0 {
+                    high = End { angle, depth };
+                    break;
                 }
-                last_kept = -1;
+                low = End { angle, depth };
             }
+            beside = (0.02 * beside).max(1e-6);
         }
-        high.0
+        high.angle
     }
 
     /// Whether the inside begins at a point because a part of the section runs through it.
@@ -183,6 +198,8 @@ impl<'a> Arcs<'a> {
     ) -> Option<(Vec<Vec2>, usize)> {
         let longest = LONGEST * self.plane.size;
         let (mut at, mut heading, mut step) = (start, direction.to_angle(), step);
+        // Of the curve, and the last chord's length: the next one turns by what lies between the middles of both.
+        let (mut curvature, mut before) = (0.0f64, step);
         let mut points = Vec::new();
         while points.len() < MOST_STEPS {
             if left.is_some_and(|left| left.distance(at) > 2.5 * step) {
@@ -192,18 +209,22 @@ impl<'a> Arcs<'a> {
                 |k: usize| if left == Some(ends[k]) { f64::INFINITY } else { ends[k].distance(at) };
             let nearest = (0..ends.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
             let to_end = distance(nearest);
-            if to_end <= NEAR * self.shortest() {
+            let is_alone = || (0..ends.len()).all(|k| k == nearest || distance(k) > ALONE * to_end);
+            if to_end <= NEAR * self.shortest() || to_end <= TOLERANCE * self.plane.size && is_alone() {
                 points.push(ends[nearest]);
                 return Some((points, nearest));
             }
             // So that no end is stepped over.
             step = step.min(longest).min((0.5 * to_end).max(self.shortest()));
             loop {
-                if let Some(angle) = self.step(at, heading, step) {
+                let ahead = heading + (0.5 * curvature * (before + step)).clamp(-0.5, 0.5);
+                if let Some(angle) = self.step(at, ahead, step) {
                     let next = at + step * Vec2::from_angle(angle);
                     let is_short = step <= self.shortest();
                     if (is_short || self.is_near_chord(at, next)) && !self.is_crossed(at, next) {
                         points.push(next);
+                        let turn = Vec2::from_angle(heading).angle_to(Vec2::from_angle(angle));
+                        (curvature, before) = (turn / (0.5 * (before + step)), step);
                         (at, heading) = (next, angle);
                         break;
                     }
@@ -215,16 +236,23 @@ impl<'a> Arcs<'a> {
                     return (to_end < TOLERANCE * self.plane.size).then_some((points, nearest));
                 }
             }
-            step *= 2.0;
+            // A chord of an arc is h²/8r off; a little less than is allowed, as the curvature changes.
+            let fitting = (4.0 * TOLERANCE * self.plane.size / curvature.abs()).sqrt();
+            step = fitting.clamp(0.5 * step, 2.0 * step);
         }
         None
     }
 
     /// The angle of the next step of a length.
     fn step(&self, at: Vec2, heading: f64, length: f64) -> Option<f64> {
-        let inside = |angle: f64| self.plane.is_inside(at + length * Vec2::from_angle(angle));
-        let turn = TURNS.into_iter().find(|turn| !inside(heading - turn) && inside(heading + turn))?;
-        let angle = self.root(at, length, heading - turn, heading + turn);
+        let (from, to) = TURNS.into_iter().find_map(|turn| {
+            let angles = [heading - turn, heading - 0.2 * turn, heading + 0.2 * turn, heading + turn];
+            let depths = self.depths(at, length, angles);
+            let end = |k: usize| End { angle: angles[k], depth: depths[k] };
+            let begins = (0..3).find(|k| depths[*k] < 0.0 && depths[k + 1] >= 0.0)?;
+            (depths[0] < 0.0 && depths[3] >= 0.0).then(|| (end(begins), end(begins + 1)))
+        })?;
+        let angle = self.root(at, length, from, to);
         let on_section = self.is_on_section(at + length * Vec2::from_angle(angle));
         (!on_section).then_some(if angle > PI { angle - TAU } else { angle })
     }
@@ -235,6 +263,8 @@ impl<'a> Arcs<'a> {
         // Next to an end the field changes over shorter distances than the tolerance.
         let aside =
             (TOLERANCE * self.plane.size).min(0.1 * along.length()) * along.normalize_or_zero().perp();
-        self.plane.is_inside(middle + aside) && !self.plane.is_inside(middle - aside)
+        let [left, right, ..] =
+            self.plane.depths([middle + aside, middle - aside, middle + aside, middle - aside]);
+        left >= 0.0 && right < 0.0
     }
 }

@@ -72,7 +72,7 @@ pub enum SliceError {
 /// Slices a shape into layers, in the order of the plan; layers without anything inside are kept, empty.
 ///
 /// Of soups, contours are sections of the triangles, their vertices exact to rounding, and where the surface is missing level
-/// curves of the field to 2e-5 of the size. Planes are half open: a vertex on one counts as below it.
+/// curves of the field to 5e-5 of the size. Planes are half open: a vertex on one counts as below it.
 ///
 /// # Errors
 /// If and only if the shape is empty, the plan, the cells or the simplification are out of range, or the monitor cancels.

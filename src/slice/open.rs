@@ -12,7 +12,7 @@ use crate::polygon::{Fill, enclosed, surrounds};
 use rustc_hash::FxHashMap;
 
 /// Nodes along the longer side of an opening's surroundings where contours are compared with the field.
-const SCAN: f64 = 12.0;
+const SCAN: f64 = 5.0;
 /// Nodes along the longer side of the section in openings as large as that.
 const FINEST_SCAN: f64 = 48.0;
 /// Nodes of a section.
@@ -24,14 +24,14 @@ const MOST_ARCS: usize = 64;
 ///
 /// `openings` are boxes around what bounds the openings: within them and next to them the contours are compared with the field.
 pub(super) fn polygons(segments: &[Segment], plane: &Plane, openings: &[Aabb]) -> Option<Vec<Polygon>> {
-    let mut parts = kept(&pieces(segments), plane);
+    let mut parts = kept(&pieces(segments), plane, openings);
     close(&mut parts, plane)?;
     let scan = nodes(openings, plane);
     let inside = plane.all_inside(&scan);
     for _ in 0..MOST_ARCS {
         let polygons = polygons_of(&parts);
-        let is_wrong = |k: &usize| within(&polygons, scan[*k]) != inside[*k];
-        let wrong: Vec<usize> = (0..scan.len()).filter(is_wrong).collect();
+        let within = all_within(&polygons, &scan);
+        let wrong: Vec<usize> = (0..scan.len()).filter(|k| within[*k] != inside[*k]).collect();
         if wrong.is_empty() {
             return Some(polygons);
         }
@@ -106,6 +106,25 @@ fn within(polygons: &[Polygon], p: Vec2) -> bool {
     polygons
         .iter()
         .any(|polygon| surrounds(&polygon.outer, p) && !polygon.holes.iter().any(|hole| surrounds(hole, p)))
+}
+
+/// Whether each of some nodes is in polygons; nodes come in rows of equal y, of which the crossings with all sides are found together.
+fn all_within(polygons: &[Polygon], nodes: &[Vec2]) -> Vec<bool> {
+    let rings = || polygons.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes));
+    let mut crossings: Vec<f64> = Vec::new();
+    let mut of_row = f64::NAN;
+    let is_within = |p: &Vec2| {
+        if p.y != of_row {
+            of_row = p.y;
+            let sides = rings().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+            let crossed = sides.filter(|(a, b)| (a.y <= p.y) != (b.y <= p.y));
+            crossings.clear();
+            crossings.extend(crossed.map(|(a, b)| a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)));
+            crossings.sort_by(f64::total_cmp);
+        }
+        crossings.partition_point(|x| *x <= p.x) % 2 == 1
+    };
+    nodes.iter().map(is_within).collect()
 }
 
 /// Nodes of grids over the surroundings of openings that the plane passes, half as large again to each side: bulges in them.

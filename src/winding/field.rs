@@ -218,8 +218,14 @@ impl WindingField {
         value[0]
     }
 
-    /// Winding numbers at up to 64 points.
-    fn at_block(&self, points: &[Vec3], values: &mut [f64], accuracy: Accuracy, scratch: &mut Scratch) {
+    /// Winding numbers at up to 64 points that lie close together.
+    pub(crate) fn at_block(
+        &self,
+        points: &[Vec3],
+        values: &mut [f64],
+        accuracy: Accuracy,
+        scratch: &mut Scratch,
+    ) {
         let expansion = self.expansion_for(accuracy);
         match (&self.engine, expansion, accuracy) {
             (Engine::Soup(_), Some((order, beta)), Accuracy::Explicit { .. }) => {
