@@ -24,7 +24,7 @@ const BESIDE: [f64; 4] = [1e-5, 3e-4, 5e-3, 0.04];
 /// Steps to a root on a circle.
 const MOST_ROOT_STEPS: usize = 160;
 /// Differences from the threshold that are none.
-const FLAT: f64 = 1e-10;
+const FLAT: f64 = 1e-8;
 /// Angles to both sides of the last step in which the next is looked for.
 const TURNS: [f64; 4] = [0.05, 0.35, 1.0, 2.2];
 /// Steps of an arc.
@@ -215,7 +215,7 @@ impl<'a> Arcs<'a> {
                 return Some((points, nearest));
             }
             // So that no end is stepped over.
-            step = step.min(longest).min((0.5 * to_end).max(self.shortest()));
+            step = step.min(longest).min((0.8 * to_end).max(self.shortest()));
             loop {
                 let ahead = heading + (0.5 * curvature * (before + step)).clamp(-0.5, 0.5);
                 if let Some(angle) = self.step(at, ahead, step) {
