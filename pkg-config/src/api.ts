@@ -315,6 +315,15 @@ export interface FastWinding {
   };
   /** One layer as a file. */
   exportLayer(layer: Layer, format: 'svg'): Promise<Uint8Array>;
+  /**
+   * Layers as one file: `svg` with a group for each, as Slic3r writes it; `dxf`; `json`; or `3mf` with the slice extension, which
+   * requires a `mesh` beside the slices, such as `geometry()` and `surface()` give.
+   */
+  exportLayers(
+    layers: Layer[],
+    format: 'svg' | 'dxf' | 'json' | '3mf',
+    mesh?: { positions: Float32Array | Float64Array; indices: Uint32Array; origin?: Float64Array },
+  ): Promise<Uint8Array>;
   /** The lines that fill layers, for a nozzle: walls, infill, skins, in the order they are laid. */
   toolpaths(layers: Layer[], settings?: ToolpathSettings & CallOptions): Promise<Toolpaths>;
   /** A program for a printer, G-code in Marlin's dialect. Fails with `DoesNotFit` if the print is too large for it or off its bed. */

@@ -15,7 +15,7 @@ const MAKERS = { parse: 'parse', soup: 'soup', cloud: 'cloud' } as const;
 const WITHOUT_FIELD = ['free', 'export', 'geometry'];
 
 /** What is asked of the engine, not of a shape, and whether it reports progress. */
-const FUNCTIONS = { exportLayer: false, toolpaths: true, gcode: false, printSettings: false } as const;
+const FUNCTIONS = { exportLayer: false, exportLayers: false, toolpaths: true, gcode: false, printSettings: false } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
 const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', ...Object.keys(FUNCTIONS)];

@@ -194,6 +194,7 @@ export function facade(caller: Caller): object {
       },
     },
     exportLayer: (layer: Layer, format: string) => ofEngine('exportLayer', [layer, format]),
+    exportLayers: (layers: Layer[], format: string, mesh?: object) => ofEngine('exportLayers', [layers, format, mesh]),
     toolpaths: (layers: Layer[], settings?: CallOptions) => ofEngine('toolpaths', [layers, forEngine(settings)], settings),
     gcode: (paths: object, profile?: object) => ofEngine('gcode', [paths, profile]),
     printSettings: ({ settings, profile, size }: { settings?: object; profile?: object; size?: number[] } = {}) =>

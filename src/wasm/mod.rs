@@ -7,6 +7,7 @@ mod failure;
 mod faults;
 mod handle;
 mod job;
+mod layers;
 mod options;
 #[cfg(feature = "pieces")]
 mod pieces;
@@ -25,21 +26,4 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen]
 pub fn version() -> String {
     env!("CARGO_PKG_VERSION").to_owned()
-}
-
-/// One layer as a file.
-///
-/// # Errors
-/// If and only if `layer` is no layer or `format` is not `svg`.
-#[wasm_bindgen(js_name = exportLayer)]
-pub fn export_layer(layer: JsValue, format: &str) -> Result<js_sys::Uint8Array, JsValue> {
-    if format != "svg" {
-        return Err(
-            failure::Failure::invalid(format!("unknown format '{format}': layers can be 'svg'")).into()
-        );
-    }
-    let layer = options::layer_from(layer)?;
-    let mut bytes = Vec::new();
-    crate::io::write_layer_svg(&layer, &mut bytes).expect("a vector takes any bytes");
-    Ok(convert::bytes_to(&bytes)?)
 }

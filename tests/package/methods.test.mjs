@@ -96,6 +96,22 @@ for (const [name, start] of Object.entries(entries)) {
       await assert.rejects(async () => fw.toolpaths(layers, { linewidth: 1 }), { code: 'InvalidArgument', message: /linewidth/ });
       await assert.rejects(async () => fw.gcode({ layers: [{}] }), { code: 'InvalidArgument', message: /toolpaths/ });
     });
+    await t.test('layers as files', async () => {
+      const layers = await soup.slice({ layerHeight: 2 });
+      const text = async (format) => new TextDecoder().decode(await fw.exportLayers(layers, format));
+      assert.equal((await text('svg')).match(/<g /g).length, 5);
+      assert.match(await text('dxf'), /SECTION[^]*EOF\s*$/);
+      const [first] = JSON.parse(await text('json'));
+      near(area(first.polygons[0].outer.flat()), 100, 1e-12);
+      const package3mf = await fw.exportLayers(layers, '3mf', await soup.geometry());
+      const again = await fw.open(package3mf);
+      assert.deepEqual([again.format, again.count, again.bounds.max], ['3MF', 12, [10, 10, 10]]);
+      await assert.rejects(async () => fw.exportLayers(layers, '3mf'), { code: 'InvalidArgument', message: /mesh/ });
+      const flat = await soup.slice({ heights: [5] });
+      const mesh = await soup.geometry();
+      await assert.rejects(async () => fw.exportLayers(flat, '3mf', mesh), { code: 'InvalidArgument', message: /layer 0/ });
+      await assert.rejects(async () => fw.exportLayers(layers, 'ps'), { code: 'InvalidArgument', message: /'dxf'/ });
+    });
     await t.test('modes of slicing', async () => {
       const [{ polygons }] = await soup.slice({ heights: [5], mode: 'largest', simplify: 0.1 });
       assert.deepEqual([polygons.length, polygons[0].outer.length], [1, 8]);
