@@ -51,6 +51,7 @@ async function prepare({ engine }: Page, { shape, geometry }: Model, recipe: Rec
   const layers = await shape.slice({ layerHeight, ...options });
   const paths = await engine.toolpaths(layers, { ...settings, ...options });
   // It cannot be cancelled on its way and tells no progress: it takes a fraction of the time that toolpaths take.
+  options.onProgress(0, 'G-code');
   const gcode = await engine.gcode(paths, profile);
   options.signal.throwIfAborted();
   const segments = segmentsOf(paths, geometry.origin, settings.lineWidth);

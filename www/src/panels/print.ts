@@ -61,7 +61,7 @@ function isTiny({ recipe, model }: State): boolean {
 }
 
 function showPrint(print: Timed<Print> | undefined): void {
-  for (const id of ['gcode-download', 'print-layer-download']) byId<HTMLButtonElement>(id).disabled = !print;
+  byId<HTMLButtonElement>('gcode-download').disabled = !print;
   const warnings = print?.value.warnings ?? [];
   byId('print-warnings').hidden = warnings.length === 0;
   byId('print-warnings').replaceChildren(

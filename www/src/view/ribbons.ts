@@ -68,7 +68,7 @@ const FRAGMENT = /* glsl */ `
     float side = across * 0.9 * roundness;
     vec3 normal = normalize(side * sideways + sqrt(1.0 - side * side) * facing);
     float light = max(0.0, dot(normal, LIGHT));
-    gl_FragColor = vec4(colour * (0.42 + 0.72 * light), 1.0);
+    gl_FragColor = vec4(colour * (0.2 + 0.95 * light), 1.0);
     #include <colorspace_fragment>
   }
 `;
