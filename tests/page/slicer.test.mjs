@@ -212,6 +212,8 @@ describe('a print', () => {
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth), 0);
         const canvas = await page.locator('#canvas').boundingBox();
         assert.ok(canvas.height > 200, `the view is ${canvas.height} px high`);
+        const [dock, lowest] = await Promise.all(['#print-dock', '#print-move'].map((id) => page.locator(id).boundingBox()));
+        assert.ok(lowest.y + lowest.height <= dock.y + dock.height, 'the dock holds its sliders');
       },
       { width: 390, height: 844 },
     ));
@@ -250,7 +252,8 @@ describe('a printer', () => {
   test('that is none is told in words, and the last one stays', () =>
     withBox(async (page) => {
       for (const [text, reason] of [
-        ['{ "bed": 180 }', /`bed`/],
+        ['{ "bed": 180 }', /"bed".*bedWidth/],
+        ['{ "speeds": { "walls": 50 } }', /"speeds\.walls"/],
         ['{ "bedWidth": -1 }', /bedWidth cannot be -1/],
         ['bed = 180', /JSON/],
         ['[]', /no object/],
