@@ -397,7 +397,7 @@ describe('the keyboard', () => {
         if (id && !name) nameless.push(id);
       }
       assert.deepEqual(nameless, []);
-      for (const id of ['theme', 'sample', 'choose', 'model', 'voxel-resolution', 'voxelize', 'surface', 'canvas', 'fit', 'layer-slider', 'heat']) {
+      for (const id of ['theme', 'sample', 'choose', 'model', 'voxel-resolution', 'voxelize', 'surface', 'print-density', 'prepare', 'canvas', 'fit', 'layer-slider', 'heat']) {
         assert.ok(reached.has(id), `Tab reaches ${id}`);
       }
     }));

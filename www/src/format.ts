@@ -24,6 +24,22 @@ export function volume(cubicMillimetres: number): string {
   return cubicMillimetres < 1000 ? `${significant(cubicMillimetres)} mm³` : `${significant(cubicMillimetres / 1000)} cm³`;
 }
 
+/** A length given in mm; in m from 1,000 mm on. */
+export function length(millimetres: number): string {
+  return millimetres < 1000 ? `${significant(millimetres, 3)} mm` : `${significant(millimetres / 1000, 3)} m`;
+}
+
+export function mass(grams: number): string {
+  return grams < 1000 ? `${significant(grams, 3)} g` : `${significant(grams / 1000, 3)} kg`;
+}
+
+/** A time that a person waits for: seconds below a minute, minutes below an hour. */
+export function duration(seconds: number): string {
+  if (seconds < 59.5) return `${Math.round(seconds)} s`;
+  const minutes = Math.round(seconds / 60);
+  return minutes < 60 ? `${minutes} min` : `${count(Math.floor(minutes / 60))} h ${minutes % 60} min`;
+}
+
 export function bytes(value: number): string {
   return value < 1e6 ? `${significant(value / 1e3, 3)} KB` : `${significant(value / 1e6, 3)} MB`;
 }

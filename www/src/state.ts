@@ -1,4 +1,5 @@
 import type { Bounds, Cloud, HeatMap, Info, Layer, Mesh, Prepared, Soup, Voxels, Warning } from 'fast-winding';
+import type { MoveKind, Nozzle, Print, Recipe } from './print.ts';
 import type { Problem } from './problem.ts';
 
 /** What is drawn of the model itself: positions relative to `origin`. */
@@ -53,7 +54,7 @@ export interface Job {
   readonly canCancel: boolean;
 }
 
-export const ITEMS = ['model', 'boundary', 'normals', 'layer', 'voxels', 'surface'] as const;
+export const ITEMS = ['model', 'boundary', 'normals', 'layer', 'voxels', 'surface', 'print'] as const;
 /** What can be shown or hidden in the 3D view. */
 export type Item = (typeof ITEMS)[number];
 
@@ -73,6 +74,17 @@ export interface State {
   measure?: PointMeasure;
   /** Whether the model and what was made of it are shown side by side. */
   halves: boolean;
+  /** How the model is to be printed; absent until the engine has told its defaults. */
+  recipe?: Recipe;
+  /** Why that cannot be printed, in words. */
+  misfit?: string;
+  print?: Timed<Print>;
+  /** What of the print is shown: what the nozzle has laid so far. */
+  nozzle: Nozzle;
+  /** Whether of the print only the layer at the nozzle is shown. */
+  onlyLayer: boolean;
+  isPlaying: boolean;
+  hiddenMoves: ReadonlySet<MoveKind>;
   visible: Readonly<Record<Item, boolean>>;
   job?: Job;
   problem?: Problem;
@@ -84,7 +96,11 @@ export function initialState(): State {
     heatWanted: false,
     halves: false,
     cutAway: false,
-    visible: { model: true, boundary: true, normals: false, layer: true, voxels: true, surface: true },
+    nozzle: { layer: 0, moves: 0 },
+    onlyLayer: false,
+    isPlaying: false,
+    hiddenMoves: new Set(['travel'] as const),
+    visible: { model: true, boundary: true, normals: false, layer: true, voxels: true, surface: true, print: true },
   };
 }
 

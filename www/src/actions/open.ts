@@ -51,5 +51,7 @@ function show({ store }: Page, model: Model): void {
     voxels: undefined,
     surface: undefined,
     measure: undefined,
+    print: undefined,
+    isPlaying: false,
   });
 }

@@ -1,4 +1,4 @@
-import type { Mesh } from 'fast-winding';
+import type { Layer, Mesh } from 'fast-winding';
 import { download, stem } from '../download.ts';
 import type { Page } from '../page.ts';
 import { fail } from './fail.ts';
@@ -14,13 +14,25 @@ export async function saveMesh(page: Page, mesh: Mesh, suffix: string): Promise<
   });
 }
 
-export async function saveLayer(page: Page): Promise<void> {
-  const layer = page.store.state.layer?.value;
-  if (!layer) return;
+export async function saveLayer(page: Page, layer: Layer): Promise<void> {
   await told(page, async () => {
     const svg = await page.engine.exportLayer(layer, 'svg');
     download(svg, `${nameOf(page)}-z${layer.zSample.toFixed(3)}.svg`, 'image/svg+xml');
   });
+}
+
+/** The printer's program of the print that is ready. */
+export function saveGCode(page: Page): void {
+  const print = page.store.state.print?.value;
+  if (print) download(print.gcode.bytes, `${nameOf(page)}.gcode`, 'text/x.gcode');
+}
+
+/** The printer's profile, to be loaded again. */
+export function saveProfile({ store }: Page): void {
+  const profile = store.state.recipe?.profile;
+  if (!profile) return;
+  const text = `${JSON.stringify(profile, null, 2)}\n`;
+  download(new TextEncoder().encode(text), `${profile.name.replace(/[^\w-]+/g, '-') || 'printer'}.json`, 'application/json');
 }
 
 /** Positions with the mesh's origin added, in double precision. */

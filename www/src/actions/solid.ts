@@ -1,7 +1,7 @@
 import type { CallOptions, SurfaceOptions } from 'fast-winding';
 import type { Page } from '../page.ts';
-import type { Item } from '../state.ts';
 import { attempt } from './attempt.ts';
+import { only } from './only.ts';
 import { timed } from './timed.ts';
 
 export async function makeVoxels(page: Page, resolution: number, threshold: number): Promise<void> {
@@ -20,9 +20,4 @@ export async function makeSurface(page: Page, how: Omit<SurfaceOptions, keyof Ca
     const surface = await timed(() => shape.surface({ ...how, ...options }));
     store.set({ surface, visible: only(page, 'surface') });
   });
-}
-
-/** Of the solid things only `item`: they fill the same space and would hide one another. */
-function only({ store }: Page, item: Item): Readonly<Record<Item, boolean>> {
-  return { ...store.state.visible, model: false, boundary: false, normals: false, voxels: false, surface: false, [item]: true };
 }

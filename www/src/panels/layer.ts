@@ -20,7 +20,10 @@ export function layerPanel(page: Page): void {
   slider.addEventListener('input', () => store.set({ plane: { ...store.state.plane, index: slider.valueAsNumber } }));
   heat.addEventListener('change', () => store.set({ heatWanted: heat.checked }));
   cut.addEventListener('change', () => store.set({ cutAway: cut.checked }));
-  byId('layer-download').addEventListener('click', () => void saveLayer(page));
+  byId('layer-download').addEventListener('click', () => {
+    const layer = store.state.layer?.value;
+    if (layer) void saveLayer(page, layer);
+  });
   height.addEventListener('change', () => {
     const { model, plane } = store.state;
     const isUsable = model && height.valueAsNumber > 0 && planeFor(model.bounds, height.valueAsNumber).count <= MOST_LAYERS;

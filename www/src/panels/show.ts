@@ -21,7 +21,7 @@ export function showPanel(store: Store<State>): void {
   });
 }
 
-const EVERY = ['model', 'layer', 'voxels', 'surface', 'visible'] as const satisfies readonly (keyof State)[];
+const EVERY = ['model', 'layer', 'voxels', 'surface', 'print', 'visible'] as const satisfies readonly (keyof State)[];
 
 interface Toggle {
   readonly row: HTMLElement;
@@ -46,7 +46,7 @@ function toggle(store: Store<State>, item: Item): Toggle {
   return { row, input, text, swatch };
 }
 
-function describe({ model, layer, voxels, surface }: State, item: Item): { isThere: boolean; label: string; token: string } {
+function describe({ model, layer, voxels, surface, print }: State, item: Item): { isThere: boolean; label: string; token: string } {
   const isCloud = model?.shape.kind === 'cloud';
   switch (item) {
     case 'model':
@@ -61,6 +61,8 @@ function describe({ model, layer, voxels, surface }: State, item: Item): { isThe
       return { isThere: voxels !== undefined, label: 'Voxels', token: '--view-voxels' };
     case 'surface':
       return { isThere: surface !== undefined, label: 'Surface', token: '--view-surface' };
+    case 'print':
+      return { isThere: print !== undefined, label: 'Print', token: '--print-outer-wall' };
   }
 }
 

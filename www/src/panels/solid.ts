@@ -5,6 +5,7 @@ import { byId, paintSlider, setFacts } from '../dom.ts';
 import { count, milliseconds, volume } from '../format.ts';
 import type { Page } from '../page.ts';
 import type { State } from '../state.ts';
+import { enableWhenUsable, reveal } from './usable.ts';
 
 /** Points drawn by lot leave no holes between them within so many of their distances. */
 const TRIM = 3;
@@ -108,23 +109,4 @@ function cells({ model }: State, resolution: number): string {
   const cell = Math.max(...sides) / resolution;
   const counts = sides.map((side) => Math.max(1, Math.ceil(side / cell - 1e-9)));
   return `${counts.map(count).join(' × ')} cells of ${cell.toPrecision(3)} mm`;
-}
-
-/** Scrolls figures into sight where the panels have their own column; on a narrow page the view is what to look at. */
-function reveal(id: string): void {
-  if (matchMedia('(min-width: 56rem)').matches) byId(id).scrollIntoView({ block: 'nearest' });
-}
-
-/** Also gives the focus back that a button loses while its own job runs. */
-function enableWhenUsable({ store }: Page, button: HTMLButtonElement): void {
-  let hadFocus = false;
-  store.on(['model', 'job'], ({ model, job }) => {
-    hadFocus ||= document.activeElement === button;
-    button.disabled = !model?.oriented || job !== undefined;
-    if (!button.disabled) {
-      if (hadFocus && document.activeElement === document.body) button.focus();
-      hadFocus = false;
-    }
-    button.title = model && !model.oriented ? 'Needs normals: estimate them first' : '';
-  });
 }

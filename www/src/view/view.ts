@@ -15,6 +15,7 @@ import { thickLines } from './lines.ts';
 import { twoSidedMesh } from './mesh.ts';
 import { Part } from './part.ts';
 import { normalsOf, pointsOf } from './points.ts';
+import { Preview } from './preview.ts';
 import { Stage } from './stage.ts';
 
 const BOUNDARY_PIXELS = 2.5;
@@ -23,7 +24,8 @@ const BOUNDARY_PIXELS = 2.5;
 export class View {
   readonly #store: Store<State>;
   readonly #stage: Stage;
-  readonly #parts = { floor: new Part(), model: new Part(), boundary: new Part(), normals: new Part(), pane: new Part(), heat: new Part(), contours: new Part(), voxels: new Part(), surface: new Part() };
+  readonly #parts = { floor: new Part(), model: new Part(), boundary: new Part(), normals: new Part(), pane: new Part(), heat: new Part(), contours: new Part(), voxels: new Part(), surface: new Part(), print: new Part() };
+  readonly #preview: Preview;
   /** One plane, moved; the list is shared by all materials that are cut. */
   readonly #cutPlane = new Plane(new Vector3(0, 0, -1));
   #cut: Plane[] = [];
@@ -32,6 +34,7 @@ export class View {
     this.#store = store;
     this.#stage = new Stage(byId<HTMLCanvasElement>('canvas'));
     this.#stage.scene.add(...Object.values(this.#parts).map((part) => part.group));
+    this.#preview = new Preview(store, this.#stage, this.#parts.print);
     this.#stage.beforeDraw(() => this.#followCamera());
     this.#followStore();
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-view]')) {
@@ -47,6 +50,7 @@ export class View {
     this.#showLayer();
     this.#showSolid('voxels', this.#store.state.voxels?.value.surface);
     this.#showSolid('surface', this.#store.state.surface?.value);
+    this.#preview.refresh();
   }
 
   /** From below, the floor would hide what stands on it. */
@@ -84,11 +88,11 @@ export class View {
   }
 
   #showVisible(visible = this.#store.state.visible): void {
-    const { model, boundary, normals, pane, heat, contours, voxels, surface } = this.#parts;
+    const { model, boundary, normals, pane, heat, contours, voxels, surface, print } = this.#parts;
     for (const [part, isVisible] of [
       [model, visible.model], [boundary, visible.boundary], [normals, visible.normals],
       [pane, visible.layer], [heat, visible.layer], [contours, visible.layer],
-      [voxels, visible.voxels], [surface, visible.surface],
+      [voxels, visible.voxels], [surface, visible.surface], [print, visible.print],
     ] as const) part.group.visible = isVisible;
     this.#stage.draw();
   }
@@ -96,8 +100,8 @@ export class View {
   /** Only the model, or only what was made of it: the surface if there is one. */
   #showHalf(isMade: boolean): void {
     const { visible, surface } = this.#store.state;
-    const { model, boundary, normals, pane, heat, contours, voxels, surface: surfacePart } = this.#parts;
-    for (const part of [pane, heat, contours]) part.group.visible = false;
+    const { model, boundary, normals, pane, heat, contours, voxels, surface: surfacePart, print } = this.#parts;
+    for (const part of [pane, heat, contours, print]) part.group.visible = false;
     model.group.visible = !isMade;
     boundary.group.visible = !isMade && visible.boundary;
     normals.group.visible = !isMade && visible.normals;

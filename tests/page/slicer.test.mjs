@@ -1,0 +1,302 @@
+/** Preparing a print on the page: settings, the printer, the preview, and what is saved. */
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { after, before, describe, test } from 'node:test';
+import { launch } from './browser.mjs';
+import { boxStl } from './models.mjs';
+import { dropFile, fact, number, openPage, settled, slide } from './page.mjs';
+import { serve } from './serve.mjs';
+
+let browser;
+let server;
+
+before(async () => {
+  [browser, server] = await Promise.all([launch(), serve()]);
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.close();
+});
+
+/** 20 layers of 0.2 mm. */
+const BOX = boxStl([0, 0, 0], [20, 20, 4]);
+
+/** A page that shows the box, or another model of 12 triangles. */
+async function withBox(work, { bytes = BOX, ...size } = {}) {
+  const page = await openPage(browser, server.url, size);
+  try {
+    await dropFile(page, 'box.stl', bytes);
+    await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+    await settled(page);
+    await work(page);
+    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
+  } finally {
+    await page.context().close();
+  }
+}
+
+async function prepare(page) {
+  await page.click('#prepare:enabled');
+  await page.waitForSelector('#print-facts dd');
+  await page.waitForSelector('#print-dock:not([hidden])');
+}
+
+/** What the 3D view shows, once it is drawn. */
+async function picture(page) {
+  await page.mouse.move(0, 0);
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return (await page.locator('#canvas').screenshot()).toString('base64');
+}
+
+async function saved(page, selector) {
+  const [file] = await Promise.all([page.waitForEvent('download'), page.click(selector)]);
+  return { name: file.suggestedFilename(), text: await readFile(await file.path(), 'utf8') };
+}
+
+function loadProfile(page, text) {
+  return page.setInputFiles('#profile-file', { name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+}
+
+/** Waits until the settings were held against the model, with this outcome; empty when all is well. */
+function misfit(page, pattern) {
+  return page.waitForFunction(
+    (source) => {
+      const message = document.getElementById('print-misfit');
+      return source === '' ? message.hidden : !message.hidden && new RegExp(source).test(message.textContent);
+    },
+    pattern,
+  );
+}
+
+describe('a print', () => {
+  test('is estimated, drawn, and saved with all its layers', () =>
+    withBox(async (page) => {
+      assert.equal(await page.inputValue('#print-layer-height'), '0.2');
+      assert.equal(await page.inputValue('#print-line-width'), '0.4');
+      assert.equal(await page.inputValue('#print-density'), '20');
+      assert.ok(await page.isDisabled('#gcode-download'));
+      assert.ok(await page.isHidden('#print-dock'));
+      const before = await picture(page);
+      await prepare(page);
+      assert.notEqual(await picture(page), before);
+      assert.ok(await page.isChecked('[data-item=print]'));
+      assert.ok(!(await page.isChecked('[data-item=model]')), 'the model makes room for its print');
+      assert.equal(await fact(page, 'print-facts', 'Layers'), '20');
+      assert.equal(await page.textContent('#print-layer-out'), 'layer 20 of 20, 4 mm');
+
+      const { name, text } = await saved(page, '#gcode-download');
+      assert.equal(name, 'box.gcode');
+      assert.equal(text.match(/^;LAYER:\d+$/gm).length, 20);
+      const seconds = Number(/^;TIME:(\d+)$/m.exec(text)[1]);
+      const metres = Number(/^;Filament used: ([\d.]+)m$/m.exec(text)[1]);
+      assert.ok(seconds >= 60 && seconds < 3600);
+      assert.equal(await fact(page, 'print-facts', 'Time'), `${Math.round(seconds / 60)} min`);
+      const [length, mass] = (await fact(page, 'print-facts', 'Filament')).split(', ');
+      assert.ok(Math.abs(inMetres(length) - metres) <= 0.005 * metres, `${length} for ${metres} m`);
+      const grams = metres * Math.PI * (1.75 / 2) ** 2 * 1.24;
+      assert.match(mass, / g$/);
+      assert.ok(Math.abs(parseFloat(mass) - grams) <= 0.01 * grams, `${mass} for ${grams} g`);
+    }));
+
+  test('is prepared as it is set, and said to be of other settings when they change', () =>
+    withBox(async (page) => {
+      await page.fill('#print-layer-height', '0.4');
+      await page.fill('#print-density', '100');
+      await page.selectOption('#print-infill', 'gyroid');
+      await prepare(page);
+      assert.equal(await fact(page, 'print-facts', 'Layers'), '10');
+      const dense = await number(page, 'print-facts', 'Filament');
+      assert.ok(await page.isHidden('#print-stale'));
+      await page.fill('#print-density', '0');
+      await page.press('#print-density', 'Enter');
+      assert.ok(await page.isVisible('#print-stale'));
+      await page.click('#prepare:enabled');
+      await page.waitForSelector('#print-stale', { state: 'hidden' });
+      const hollow = await number(page, 'print-facts', 'Filament');
+      assert.ok(hollow < dense || hollow > 100, `${hollow} is less filament than ${dense}`);
+    }));
+
+  test('is shown up to a layer, a single layer, and only the kinds that are wanted', () =>
+    withBox(async (page) => {
+      await prepare(page);
+      const whole = await picture(page);
+      await slide(page, '#print-layer', 4);
+      assert.equal(await page.textContent('#print-layer-out'), 'layer 5 of 20, 1 mm');
+      const five = await picture(page);
+      assert.notEqual(five, whole);
+      await page.check('#print-only');
+      const fifth = await picture(page);
+      assert.notEqual(fifth, five);
+      await page.uncheck('#print-only');
+      assert.equal(await picture(page), five);
+      await slide(page, '#print-move', 3);
+      assert.notEqual(await picture(page), five);
+      assert.match(await page.textContent('#print-move-out'), /^move 3 of \d+$/);
+      await page.focus('#print-layer');
+      await page.keyboard.press('ArrowRight');
+      assert.match(await page.getAttribute('#print-layer', 'aria-valuetext'), /^layer 6 of 20/);
+      await slide(page, '#print-layer', 19);
+      assert.equal(await picture(page), whole);
+      assert.ok(!(await page.isChecked('[data-move=travel]')), 'travel is not shown at first');
+      await page.uncheck('[data-move=outerWall]');
+      assert.notEqual(await picture(page), whole);
+      await page.check('[data-move=outerWall]');
+      assert.equal(await picture(page), whole);
+      const { name, text } = await saved(page, '#print-layer-download');
+      assert.match(name, /^box-z3\.900\.svg$/);
+      assert.match(text, /<svg/);
+    }));
+
+  test('plays, pauses where it is, and ends with its last move', () =>
+    withBox(async (page) => {
+      await prepare(page);
+      const whole = await picture(page);
+      await page.selectOption('#print-pace', '1');
+      await page.click('#print-play');
+      await page.waitForFunction(() => document.getElementById('print-move').valueAsNumber > 0);
+      await page.click('#print-play');
+      assert.equal(await page.textContent('#print-play'), 'Play');
+      const place = () => page.evaluate(() => ['print-layer-out', 'print-move-out'].map((id) => document.getElementById(id).textContent));
+      const paused = await place();
+      assert.match(paused[0], /^layer 1 of 20/);
+      assert.notEqual(await picture(page), whole);
+      assert.deepEqual(await place(), paused);
+      await page.selectOption('#print-pace', '1000');
+      await page.click('#print-play');
+      await page.waitForFunction(() => document.getElementById('print-play').textContent === 'Play');
+      assert.match((await place())[0], /^layer 20 of 20/);
+      assert.equal(await picture(page), whole);
+    }));
+
+  test('makes way when another model is opened', () =>
+    withBox(async (page) => {
+      await prepare(page);
+      await page.selectOption('#sample', 'teapot.obj');
+      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '992');
+      assert.ok(await page.isHidden('#print-dock'));
+      assert.equal(await page.locator('#print-facts dd').count(), 0);
+      assert.ok(await page.isDisabled('#gcode-download'));
+    }));
+
+  test('is cancelled while it is prepared, and the page goes on', async () => {
+    const page = await openPage(browser, server.url);
+    try {
+      await page.click('#prepare:enabled');
+      await page.waitForSelector('#job:not([hidden])');
+      await page.keyboard.press('Escape');
+      await page.waitForSelector('#job', { state: 'hidden' });
+      assert.ok(await page.isHidden('#problem'), 'cancelling is no error');
+      assert.equal(await page.locator('#print-facts dd').count(), 0);
+      await dropFile(page, 'box.stl', BOX);
+      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await settled(page);
+      await prepare(page);
+      assert.deepEqual(page.errors, []);
+    } finally {
+      await page.context().close();
+    }
+  });
+
+  test('fits 390 px without scrolling sideways', () =>
+    withBox(
+      async (page) => {
+        await prepare(page);
+        const outside = await page.evaluate(() =>
+          [...document.querySelectorAll('button, input:not([hidden]), select, dd, output')]
+            .filter((element) => element.getClientRects().length > 0)
+            .filter((element) => element.getBoundingClientRect().right > innerWidth || element.getBoundingClientRect().left < 0)
+            .map((element) => element.id || element.textContent),
+        );
+        assert.deepEqual(outside, []);
+        assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth), 0);
+        const canvas = await page.locator('#canvas').boundingBox();
+        assert.ok(canvas.height > 200, `the view is ${canvas.height} px high`);
+        const [dock, lowest] = await Promise.all(['#print-dock', '#print-move'].map((id) => page.locator(id).boundingBox()));
+        assert.ok(lowest.y + lowest.height <= dock.y + dock.height, 'the dock holds its sliders');
+      },
+      { width: 390, height: 844 },
+    ));
+});
+
+describe('a printer', () => {
+  test('whose bed is too small is told with both sizes, until it is large enough', () =>
+    withBox(async (page) => {
+      await loadProfile(page, '{ "name": "small one", "bedWidth": 15 }');
+      await misfit(page, '^The model is 20 mm wide, the bed 15 mm\\.$');
+      assert.ok(await page.isDisabled('#prepare'));
+      assert.equal(await page.textContent('#printer-name'), 'small one');
+      await page.click('summary');
+      assert.equal(await page.inputValue('#printer-width'), '15');
+      await page.fill('#printer-width', '60');
+      await page.press('#printer-width', 'Enter');
+      await misfit(page, '');
+      assert.ok(await page.isEnabled('#prepare'));
+
+      const { name, text } = await saved(page, '#profile-save');
+      assert.equal(name, 'small-one.json');
+      const profile = JSON.parse(text);
+      assert.deepEqual([profile.bedWidth, profile.bedDepth, profile.nozzleDiameter], [60, 220, 0.4]);
+      await page.fill('#printer-width', '30');
+      await page.press('#printer-width', 'Enter');
+      await loadProfile(page, text);
+      await page.waitForFunction(() => document.getElementById('printer-width').value === '60');
+    }));
+
+  test('with another nozzle lays lines of its width', () =>
+    withBox(async (page) => {
+      await loadProfile(page, '{ "nozzleDiameter": 0.6 }');
+      await page.waitForFunction(() => document.getElementById('print-line-width').value === '0.6');
+    }));
+
+  test('that is none is told in words, and the last one stays', () =>
+    withBox(async (page) => {
+      for (const [text, reason] of [
+        ['{ "bed": 180 }', /"bed".*bedWidth/],
+        ['{ "speeds": { "walls": 50 } }', /"speeds\.walls"/],
+        ['{ "bedWidth": -1 }', /bedWidth cannot be -1/],
+        ['bed = 180', /JSON/],
+        ['[]', /no object/],
+      ]) {
+        await loadProfile(page, text);
+        await page.waitForSelector('#problem:not([hidden])');
+        assert.equal(await page.textContent('#problem-title'), 'mine.json is no printer profile');
+        assert.match(await page.textContent('#problem-detail'), reason);
+        await page.click('#problem-dismiss');
+      }
+      assert.equal(await page.textContent('#printer-name'), 'generic Marlin printer');
+    }));
+
+  test('is asked for nothing out of range', () =>
+    withBox(async (page) => {
+      await page.fill('#print-density', '300');
+      await page.press('#print-density', 'Enter');
+      await misfit(page, '^Density cannot be 3');
+      assert.ok(await page.isDisabled('#prepare'));
+      await page.fill('#print-density', '');
+      await page.press('#print-density', 'Enter');
+      assert.equal(await page.inputValue('#print-density'), '300', 'no number is taken back');
+      await page.fill('#print-density', '15');
+      await page.press('#print-density', 'Enter');
+      await misfit(page, '');
+    }));
+
+  test('is too coarse for a model in metres, which is asked for its unit', () =>
+    withBox(
+      async (page) => {
+        assert.match(await page.textContent('#print-tiny'), /only 0\.15 mm long/);
+        await page.click('#print-unit');
+        assert.equal(await page.evaluate(() => document.activeElement.id), 'unit');
+        await page.selectOption('#unit', 'meter');
+        await page.waitForSelector('#print-tiny', { state: 'hidden' });
+        await settled(page);
+        await misfit(page, '');
+        assert.ok(await page.isEnabled('#prepare'));
+      },
+      { bytes: boxStl([0, 0, 0], [0.15, 0.1, 0.1]) },
+    ));
+});
+
+function inMetres(text) {
+  return parseFloat(text) / (text.endsWith(' mm') ? 1000 : 1);
+}
