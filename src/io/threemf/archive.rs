@@ -1,24 +1,25 @@
 //! ZIP (APPNOTE 6.3.10) as far as 3MF needs it: stored and deflated files, with ZIP64, found through the central
 //! directory. A third of the size of the `zip` crate's reader, which matters for a download.
+use super::checksum::Checksum;
 use flate2::bufread::DeflateDecoder;
 use std::io::{self, Read};
 
-const END: &[u8] = b"PK\x05\x06";
+pub(super) const END: &[u8] = b"PK\x05\x06";
 const END_LENGTH: usize = 22;
 const END_64: &[u8] = b"PK\x06\x06";
 const END_64_LOCATOR: &[u8] = b"PK\x06\x07";
 const END_64_LOCATOR_LENGTH: usize = 20;
-const ENTRY: &[u8] = b"PK\x01\x02";
+pub(super) const ENTRY: &[u8] = b"PK\x01\x02";
 const ENTRY_LENGTH: usize = 46;
-const FILE: &[u8] = b"PK\x03\x04";
+pub(super) const FILE: &[u8] = b"PK\x03\x04";
 const FILE_LENGTH: usize = 30;
 /// Header of the extra field that holds the 64-bit values of an entry.
-const EXTRA_64: u16 = 1;
+pub(super) const EXTRA_64: u16 = 1;
 /// Stands in a 32-bit field for a value in the ZIP64 one.
-const ELSEWHERE: u64 = 0xffff_ffff;
+pub(super) const ELSEWHERE: u64 = 0xffff_ffff;
 
 const STORED: u16 = 0;
-const DEFLATED: u16 = 8;
+pub(super) const DEFLATED: u16 = 8;
 
 /// A file in the archive.
 struct Entry {
@@ -76,7 +77,7 @@ impl<'a> Archive<'a> {
             DEFLATED => Box::new(DeflateDecoder::new(packed)),
             other => return Err(format!("one packed by method {other}")),
         };
-        Ok(Box::new(Checked { content, expected: entry.checksum, state: !0 }))
+        Ok(Box::new(Checked { content, expected: entry.checksum, found: Checksum::EMPTY }))
     }
 
     fn packed(&self, entry: &Entry) -> Option<&'a [u8]> {
@@ -161,38 +162,19 @@ fn extra_64(mut fields: &[u8]) -> &[u8] {
 struct Checked<R> {
     content: R,
     expected: u32,
-    state: u32,
+    found: Checksum,
 }
 
 impl<R: Read> Read for Checked<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let length = self.content.read(buffer)?;
-        for byte in &buffer[..length] {
-            self.state = CRC_TABLE[((self.state ^ u32::from(*byte)) & 0xff) as usize] ^ (self.state >> 8);
-        }
-        if length == 0 && !buffer.is_empty() && !self.state != self.expected {
+        self.found.update(&buffer[..length]);
+        if length == 0 && !buffer.is_empty() && self.found.value() != self.expected {
             return Err(io::Error::other("a file whose checksum is right"));
         }
         Ok(length)
     }
 }
-
-/// The CRC-32 of each byte alone (ISO 3309, reflected polynomial 0xedb88320).
-const CRC_TABLE: [u32; 256] = {
-    let mut table = [0; 256];
-    let mut byte = 0;
-    while byte < 256 {
-        let mut crc = byte as u32;
-        let mut bit = 0;
-        while bit < 8 {
-            crc = if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
-            bit += 1;
-        }
-        table[byte] = crc;
-        byte += 1;
-    }
-    table
-};
 
 #[cfg(test)]
 mod tests {

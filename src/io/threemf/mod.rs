@@ -6,11 +6,15 @@
 //! its size becomes. Here a model is parsed as it is unpacked, and what comes out is bounded: see `package.rs` for
 //! the unpacked size and `place.rs` for copies of copies.
 mod archive;
+mod checksum;
 mod model;
 mod package;
+mod packer;
 mod place;
 mod transform;
 mod xml;
+
+pub(super) use packer::Packer;
 
 use super::parsed::Parsed;
 use super::{Format, Location, ReadError};

@@ -1,15 +1,22 @@
 //! Geometry to bytes. Coordinates are in millimetres.
+mod dxf;
+mod json;
 mod obj;
 mod off;
 mod ply;
 mod stl;
 mod svg;
+mod threemf;
 mod xyz;
 
-pub use svg::write_layer_svg;
+pub use dxf::write_layers_dxf;
+pub use json::write_layers_json;
+pub use svg::{write_layer_svg, write_layers_svg};
+pub use threemf::{MeshResolution, SliceStackError, write_layers_3mf};
 
-use crate::data::TriangleSoup;
+use crate::data::{Polygon, Ring, TriangleSoup};
 use crate::math::Vec3;
+use std::fmt;
 use std::io::{self, BufWriter, Write};
 
 /// A format that triangles can be written in.
@@ -76,17 +83,28 @@ fn vertices(soup: &TriangleSoup) -> impl Iterator<Item = Vec3> + '_ {
     soup.positions().iter().map(|p| if p.is_finite() { *p } else { Vec3::ZERO })
 }
 
-/// Writes three numbers with blanks between them, in as few digits as give the same number back.
-fn write_vector(v: Vec3, out: &mut impl Write) -> io::Result<()> {
-    for (axis, value) in v.to_array().into_iter().enumerate() {
-        let blank = if axis == 0 { "" } else { " " };
+/// The rings of polygons, each outer one before its holes.
+fn rings(polygons: &[Polygon]) -> impl Iterator<Item = &Ring> {
+    polygons.iter().flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes))
+}
+
+/// A number in as few digits as give the same one back.
+struct Shortest(f64);
+
+impl fmt::Display for Shortest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Plain digits where they are short; 1e300 would take 301 of them.
-        match value.abs() {
-            0.0 | 1e-5..1e16 => write!(out, "{blank}{value}"),
-            _ => write!(out, "{blank}{value:e}"),
-        }?;
+        match self.0.abs() {
+            0.0 | 1e-5..1e16 => write!(f, "{}", self.0),
+            _ => write!(f, "{:e}", self.0),
+        }
     }
-    Ok(())
+}
+
+/// Writes three numbers with blanks between them.
+fn write_vector(v: Vec3, out: &mut impl Write) -> io::Result<()> {
+    let [x, y, z] = v.to_array().map(Shortest);
+    write!(out, "{x} {y} {z}")
 }
 
 #[cfg(test)]

@@ -16,22 +16,25 @@ PEERS = [
     "point-cloud-utils==0.34.0",
     "open3d==0.20.0",
 ]
+# Readers of the formats that layers are written in.
+READERS = ["numpy==2.4.6", "ezdxf==1.4.5", "lib3mf==2.5.0", "networkx==3.6.1", "svgpathtools==1.8.0", "trimesh==5.2.0"]
 # Open3D's wheel loads these libraries of the system.
 DEBIAN_PACKAGES = ["libusb-1.0-0", "libgl1", "libgomp1", "libx11-6"]
 
 
-def enter():
-    """Restarts this program inside the environment that has the peers; makes it first where it is missing."""
-    environment = CACHE / "peers"
+def enter(name="peers", packages=PEERS):
+    """Restarts this program inside the environment that has the packages; makes it first where it is missing."""
+    environment = CACHE / name
     python = environment / "bin" / "python"
     if pathlib.Path(sys.prefix) == environment:
         return
     if not (environment / "ready").exists():
-        print("installing", *PEERS, "into", environment, file=sys.stderr)
+        print("installing", *packages, "into", environment, file=sys.stderr)
         subprocess.run([sys.executable, "-m", "venv", environment], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", *PEERS], check=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", *packages], check=True)
         (environment / "ready").touch()
-    install_libraries(python)
+    if packages is PEERS:
+        install_libraries(python)
     os.execv(python, [str(python), *sys.argv])
 
 
