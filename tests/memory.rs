@@ -2,9 +2,10 @@
 //! other, as the allocator counts for the whole process.
 mod common;
 
-use common::{joined, torus, without};
+use common::{cuboid, joined, torus, without};
 use fast_winding::data::{Lattice, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3};
+use fast_winding::slice::{LayerPlan, SliceConfig, slice_each};
 use fast_winding::solid::{VoxelConfig, VoxelError, VoxelMethod, voxelize};
 use fast_winding::winding::{Accuracy, FieldError};
 use fast_winding::{WindingField, math::area_vector};
@@ -127,6 +128,31 @@ fn classifying_a_lattice_of_512_cubed_peaks_below_100_mb() {
         println!("{name}: at most {:.1} MB, {:.1} MB left", peak as f64 / 1e6, held as f64 / 1e6);
         assert_eq!(bits.len(), 512usize.pow(3) / 8);
         assert!(peak < 100_000_000, "{name}: {peak}");
+    }
+}
+
+#[test]
+fn slicing_into_100_000_layers_peaks_below_10_mb() {
+    let _alone = alone();
+    // Walls as tall as the shape meet every layer; each of the torus's triangles meets thousands.
+    let walls = cuboid(Aabb { min: Vec3::splat(-50.0), max: Vec3::splat(50.0) });
+    let upright = closed().positions().iter().map(|p| Vec3::new(p.x, -p.z, p.y)).collect();
+    let upright = TriangleSoup::new(upright, closed().triangles().to_vec()).unwrap();
+    for (name, soup) in [("walls", walls), ("80,000 triangles", upright)] {
+        let field = WindingField::new(soup, Default::default());
+        let layer_height = field.bounds().size().z / 1e5;
+        let plan = LayerPlan { layer_height, ..LayerPlan::default() };
+        let (mut count, mut points) = (0, 0);
+        let (report, peak, held) = measured(|| {
+            slice_each(&field, &plan, &SliceConfig::default(), &Silent, &mut |place, layer| {
+                assert_eq!(place, count, "layers come from below");
+                count += 1;
+                points += layer.polygons.iter().map(|p| p.outer.len()).sum::<usize>();
+            })
+        });
+        println!("{name}: at most {:.1} MB for {points} points, {held} bytes left", peak as f64 / 1e6);
+        assert_eq!((report.unwrap().layers, count), (100_000, 100_000));
+        assert!(points > 100_000 && peak < 10_000_000, "{name}: {peak}");
     }
 }
 

@@ -131,6 +131,11 @@ export interface SliceOptions extends CallOptions {
   firstLayerHeight?: number;
   /** Where in its span a layer is sampled: `middle` unless said otherwise. */
   sampleAt?: 'bottom' | 'middle' | 'top';
+  /**
+   * Layers as thick as slopes allow, in place of `layerHeight`: from `least` to `most`, so that their steps stand off the surface by
+   * `deviation` at most; horizontal faces become boundaries of layers. All in millimetres.
+   */
+  adaptive?: { least: number; most: number; deviation: number };
   /** Heights z to sample instead, in millimetres. */
   heights?: number[] | Float64Array;
   /**

@@ -17,9 +17,10 @@ mod plane;
 mod refine;
 mod section;
 mod slicer;
+mod slopes;
 
 pub use heat_map::heat_map;
-pub use plan::{LayerPlan, PlanError, SampleAt, Span};
+pub use plan::{AdaptiveHeights, LayerPlan, PlanError, SampleAt, Span};
 
 use crate::data::{Cancelled, LatticeError, Layer, Monitor, map_tasks, threads};
 use crate::winding::WindingField;
@@ -108,7 +109,7 @@ pub fn slice_each(
     monitor: &dyn Monitor,
     take: &mut dyn FnMut(usize, Layer),
 ) -> Result<SliceReport, SliceError> {
-    let spans = plan.spans(field.bounds().min.z, field.bounds().max.z)?;
+    let spans = plan.spans_of(field.shape())?;
     slice_spans(field, &spans, config, monitor, take)
 }
 

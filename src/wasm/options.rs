@@ -4,7 +4,7 @@ use crate::data::{Lattice, Layer, Polygon, Ring, Warning};
 use crate::io::{self, CloudFormat, MeshFormat};
 use crate::math::{Aabb, Vec2};
 use crate::orient::{ConsistencyConfig, OrientMethod, StochasticConfig, Widths};
-use crate::slice::{LayerPlan, SampleAt, SliceConfig, SliceMode};
+use crate::slice::{AdaptiveHeights, LayerPlan, SampleAt, SliceConfig, SliceMode};
 use crate::solid::{VoxelConfig, VoxelMethod};
 use crate::surface::SurfaceConfig;
 use crate::winding::{Accuracy, FieldConfig, Order};
@@ -200,8 +200,16 @@ pub struct SliceOptions {
     resolution: Option<usize>,
     mode: Option<SliceModeName>,
     simplify: Option<f64>,
+    adaptive: Option<AdaptiveOptions>,
     /// Bottom, top and sample of each layer of a plan that was made before.
     pub spans: Option<Vec<f64>>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+struct AdaptiveOptions {
+    least: f64,
+    most: f64,
+    deviation: f64,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -239,6 +247,11 @@ impl SliceOptions {
             layer_height: self.layer_height.unwrap_or(default.layer_height),
             first_layer_height: self.first_layer_height,
             sample_at: sample_at.unwrap_or_default(),
+            adaptive: self.adaptive.map(|a| AdaptiveHeights {
+                least: a.least,
+                most: a.most,
+                deviation: a.deviation,
+            }),
             heights: self.heights,
         }
     }

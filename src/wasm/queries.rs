@@ -108,11 +108,8 @@ impl Handle {
     #[wasm_bindgen(js_name = layerSpans)]
     pub fn layer_spans(&mut self, options: JsValue, job: &Job) -> Result<Float64Array, JsValue> {
         let options: SliceOptions = options::from_js(options)?;
-        let bounds = self.field(None, job)?.bounds();
-        let spans = options
-            .plan()
-            .spans(bounds.min.z, bounds.max.z)
-            .map_err(|e| Failure::from(slice::SliceError::from(e)))?;
+        let spans = options.plan().spans_of(self.field(None, job)?.shape());
+        let spans = spans.map_err(|e| Failure::from(slice::SliceError::from(e)))?;
         let numbers: Vec<f64> = spans.iter().flat_map(|s| [s.bottom, s.top, s.sample]).collect();
         Ok(numbers_to(&numbers)?)
     }

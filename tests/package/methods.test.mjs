@@ -112,6 +112,15 @@ for (const [name, start] of Object.entries(entries)) {
       await assert.rejects(async () => fw.exportLayers(flat, '3mf', mesh), { code: 'InvalidArgument', message: /layer 0/ });
       await assert.rejects(async () => fw.exportLayers(layers, 'ps'), { code: 'InvalidArgument', message: /'dxf'/ });
     });
+    await t.test('adaptive heights', async () => {
+      const adaptive = { least: 0.1, most: 0.5, deviation: 0.05 };
+      const layers = await soup.slice({ adaptive });
+      assert.equal(layers.length, 20, 'walls are steep: every layer is the thickest');
+      near(layers.at(-1).zTop, 10, 1e-9);
+      const wrong = { adaptive: { ...adaptive, least: 0.6 } };
+      await assert.rejects(async () => soup.slice(wrong), { code: 'InvalidArgument', message: /least layer height of 0.6/ });
+      await assert.rejects(async () => soup.slice({ layerHeight: 11 }), { code: 'InvalidArgument', message: /above the shape/ });
+    });
     await t.test('modes of slicing', async () => {
       const [{ polygons }] = await soup.slice({ heights: [5], mode: 'largest', simplify: 0.1 });
       assert.deepEqual([polygons.length, polygons[0].outer.length], [1, 8]);

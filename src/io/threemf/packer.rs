@@ -123,8 +123,8 @@ impl Write for Packing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::archive::Archive;
     use super::*;
+    use crate::io::threemf::archive::Archive;
     use std::io::{Cursor, Read};
 
     const TEXT: &[u8] = b"some text, some text, some text";
