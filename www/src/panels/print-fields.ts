@@ -31,7 +31,10 @@ const SETTINGS: readonly (NumberField | ChoiceField)[] = [
   },
   setting('lineWidth', 'print-line-width', 'Line width', 'mm', 0.05),
   setting('perimeters', 'print-walls', 'Walls', '', 1),
-  { name: 'seam', id: 'print-seam', label: 'Seam', choices: [['aligned', 'aligned'], ['nearest', 'nearest'], ['rear', 'at the back'], ['random', 'random']] },
+  {
+    name: 'seam', id: 'print-seam', label: 'Seam',
+    choices: [['aligned', 'aligned'], ['nearest', 'nearest'], ['rear', 'at the back'], ['random', 'random']],
+  },
   { name: 'infill', id: 'print-infill', label: 'Infill', choices: [['rectilinear', 'lines'], ['grid', 'grid'], ['gyroid', 'gyroid']] },
   {
     id: 'print-density', label: 'Density', unit: '%', step: 5,
@@ -67,7 +70,8 @@ function setting(name: 'lineWidth' | 'perimeters' | 'bottomLayers' | 'topLayers'
 type Measure = { [K in keyof PrinterProfile]-?: NonNullable<PrinterProfile[K]> extends number ? K : never }[keyof PrinterProfile];
 
 function printer(name: Measure, id: string, label: string, unit: string, step: number): NumberField {
-  return { id, label, unit, step, get: (r) => r.profile[name], set: (r, value) => withProfile(r, { ...r.profile, [name]: value }) };
+  const set = (r: Recipe, value: number): Recipe => withProfile(r, { ...r.profile, [name]: value });
+  return { id, label, unit, step, get: (r) => r.profile[name], set };
 }
 
 function numberOf(store: Store<State>, field: NumberField): HTMLElement {
