@@ -155,9 +155,9 @@ fn chains_of(pieces: &[Piece]) -> Vec<Vec<u32>> {
     let mut chains = Vec::new();
     // From their first pieces, then loops from anywhere.
     for only_first in [true, false] {
-        for start in 0..pieces.len() {
+        for (start, is_first) in is_first.iter().enumerate() {
             let mut chain = Vec::new();
-            let mut at = (!only_first || is_first[start]).then_some(start as u32);
+            let mut at = (!only_first || *is_first).then_some(start as u32);
             while let Some(k) = at.filter(|k| !is_taken[*k as usize]) {
                 is_taken[k as usize] = true;
                 chain.push(k);

@@ -10,7 +10,7 @@ use crate::print::{
     Toolpaths, gcode, toolpaths,
 };
 use js_sys::{Array, Object, Reflect, Uint8Array, Uint32Array};
-use serde::Serialize;
+use serde::{Serialize, de::DeserializeOwned};
 use wasm_bindgen::prelude::*;
 
 /// In the order of their numbers.
@@ -33,7 +33,7 @@ const KINDS: [PathKind; 10] = [
 /// If and only if a setting is out of range, the layers are none that can be printed, or the job is cancelled.
 #[wasm_bindgen(js_name = toolpaths)]
 pub fn toolpaths_of(layers: &Array, settings: JsValue, job: &Job) -> Result<Object, JsValue> {
-    let settings: ToolpathSettings = from_js(settings)?;
+    let settings: ToolpathSettings = known(settings)?;
     let layers = layers.iter().map(layer_from).collect::<Result<Vec<Layer>, _>>()?;
     let made = toolpaths(&layers, &settings, job).map_err(Failure::from)?;
     let layers = made.layers.iter().map(layer_to).collect::<Result<Array, _>>()?;
@@ -52,7 +52,7 @@ pub fn toolpaths_of(layers: &Array, settings: JsValue, job: &Job) -> Result<Obje
 /// If and only if the paths are none, a value of the profile is out of range, or the print does not fit the printer.
 #[wasm_bindgen(js_name = gcode)]
 pub fn gcode_of(paths: &JsValue, profile: JsValue) -> Result<Object, JsValue> {
-    let profile: PrinterProfile = from_js(profile)?;
+    let profile: PrinterProfile = known(profile)?;
     let paths = paths_from(paths)?;
     let program = gcode(&paths, &profile).map_err(Failure::from)?;
     Ok(object([
@@ -70,8 +70,8 @@ pub fn gcode_of(paths: &JsValue, profile: JsValue) -> Result<Object, JsValue> {
 /// If and only if a value is out of range, or the model is too large.
 #[wasm_bindgen(js_name = printSettings)]
 pub fn print_settings(settings: JsValue, profile: JsValue, size: JsValue) -> Result<Object, JsValue> {
-    let settings: ToolpathSettings = from_js(settings)?;
-    let profile: PrinterProfile = from_js(profile)?;
+    let settings: ToolpathSettings = known(settings)?;
+    let profile: PrinterProfile = known(profile)?;
     settings.check().map_err(Failure::from)?;
     profile.check().map_err(|error| Failure::from(PrintError::from(error)))?;
     if !size.is_undefined() {
@@ -80,6 +80,28 @@ pub fn print_settings(settings: JsValue, profile: JsValue, size: JsValue) -> Res
         profile.fits(model).map_err(|error| Failure::from(PrintError::from(error)))?;
     }
     Ok(object([("settings", plain(&settings)?), ("profile", plain(&profile)?)]))
+}
+
+/// What a JavaScript object says; an error where it has a name that the defaults do not have: it would be overlooked.
+fn known<T: Serialize + DeserializeOwned + Default>(given: JsValue) -> Result<T, Failure> {
+    check_names(&given, &plain(&T::default())?)?;
+    from_js(given)
+}
+
+fn check_names(given: &JsValue, defaults: &JsValue) -> Result<(), Failure> {
+    let (Some(given), Some(defaults)) = (given.dyn_ref::<Object>(), defaults.dyn_ref::<Object>()) else {
+        return Ok(());
+    };
+    let names = Object::keys(defaults);
+    for name in Object::keys(given).iter() {
+        if !names.includes(&name, 0) {
+            let (name, known) = (name.as_string().unwrap_or_default(), names.join(", "));
+            return Err(Failure::invalid(format!("bad options: '{name}' is not known; known are {known}")));
+        }
+        let of = |object: &Object| Reflect::get(object, &name).unwrap_or(JsValue::UNDEFINED);
+        check_names(&of(given), &of(defaults))?;
+    }
+    Ok(())
 }
 
 /// As a plain object.
