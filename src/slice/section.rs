@@ -64,7 +64,7 @@ impl<'a> Sections<'a> {
             near.extend(&self.triangles[self.starts[node] as usize..self.starts[node + 1] as usize]);
             node /= 2;
         }
-        near.sort_unstable();
+        near.sort();
         near
     }
 

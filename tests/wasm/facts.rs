@@ -66,8 +66,8 @@ pub fn layers_agree() {
     let holes = layers.iter().flat_map(|l| &l.polygons).map(|p| p.holes.len()).sum::<usize>();
     let corners = layers.iter().flat_map(|l| &l.polygons).map(|p| p.outer.len()).sum::<usize>();
     let polygons = layers.iter().map(|l| l.polygons.len()).sum::<usize>();
-    assert_eq!((layers.len(), polygons, holes, corners), (8, 16, 8, 1261));
-    assert_close(layers.iter().map(|l| l.area()).sum(), 253.34557557651632);
+    assert_eq!((layers.len(), polygons, holes, corners), (8, 16, 8, 1783));
+    assert_close(layers.iter().map(|l| l.area()).sum(), 253.45132769963308);
 }
 
 pub fn surfaces_agree() {
