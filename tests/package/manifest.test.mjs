@@ -60,7 +60,7 @@ test('a program that uses the types compiles, and one that misuses them does not
 
 test('the README’s examples run', () => {
   const examples = [...readFileSync(join(home, 'README.md'), 'utf8').matchAll(/```js\n([^]*?)```/g)].map((match) => match[1]);
-  assert.equal(examples.length, 3);
+  assert.equal(examples.length, 4);
   const [example, clouds, longCall] = examples;
   const checks = `
     import assert from 'node:assert/strict';
