@@ -94,7 +94,7 @@ for (const [name, start] of Object.entries(entries)) {
       await assert.rejects(async () => fw.gcode(paths, { bedWidth: 8 }), { code: 'DoesNotFit' });
       await assert.rejects(async () => fw.toolpaths(layers, { lineWidth: -1 }), { code: 'InvalidArgument', message: /lineWidth/ });
       await assert.rejects(async () => fw.toolpaths(layers, { linewidth: 1 }), { code: 'InvalidArgument', message: /linewidth/ });
-      await assert.rejects(async () => fw.gcode({ layers: [{}] }), { code: 'InvalidArgument', message: /toolpaths/ });
+      await assert.rejects(async () => fw.gcode({ layers: [{}] }), { code: 'InvalidArgument', message: /points must be/ });
     });
     await t.test('layers as files', async () => {
       const layers = await soup.slice({ layerHeight: 2 });
