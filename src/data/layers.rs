@@ -11,6 +11,11 @@ pub struct Polygon {
 }
 
 impl Polygon {
+    /// The outer ring, then the holes.
+    pub fn rings(&self) -> impl Iterator<Item = &Ring> + Clone {
+        std::iter::once(&self.outer).chain(&self.holes)
+    }
+
     /// Area in square millimetres, holes taken off.
     pub fn area(&self) -> f64 {
         signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
@@ -33,6 +38,11 @@ impl Layer {
     pub fn area(&self) -> f64 {
         self.polygons.iter().map(Polygon::area).sum()
     }
+}
+
+/// The sides of a ring, each from its first end to its second; the last one leads back to the start.
+pub fn sides(ring: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
+    ring.iter().copied().zip(ring.iter().copied().cycle().skip(1))
 }
 
 /// Area of a ring: positive when it runs counter-clockwise.

@@ -14,7 +14,7 @@ mod warning;
 pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit, zeroed};
 pub use cloud::{CloudError, OrientedCloud, PointCloud};
 pub use lattice::{Grid, Lattice, LatticeError};
-pub use layers::{Layer, Polygon, Ring, signed_area};
+pub use layers::{Layer, Polygon, Ring, sides, signed_area};
 pub use mesh::SurfaceMesh;
 pub use monitor::{Cancelled, Monitor, Silent};
 pub(crate) use pairs::{ascending, sorted_pairs};

@@ -1,4 +1,4 @@
-use crate::data::Polygon;
+use crate::data::{Polygon, sides};
 use crate::math::Vec2;
 
 /// Pieces shorter than this part of a cell are rounding, not geometry.
@@ -36,14 +36,8 @@ impl EdgeGrid {
     pub fn new(polygons: &[Polygon]) -> EdgeGrid {
         let mut edges = Vec::new();
         for (polygon, shape) in polygons.iter().enumerate() {
-            for ring in std::iter::once(&shape.outer).chain(&shape.holes) {
-                let next = ring.iter().cycle().skip(1);
-                edges.extend(ring.iter().zip(next).map(|(&from, &to)| Edge {
-                    from,
-                    to,
-                    polygon: polygon as u32,
-                }));
-            }
+            let all = shape.rings().flat_map(|ring| sides(ring));
+            edges.extend(all.map(|(from, to)| Edge { from, to, polygon: polygon as u32 }));
         }
         let (low, high) = edges.iter().fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(low, high), edge| {
             (low.min(edge.from), high.max(edge.from))
@@ -249,12 +243,7 @@ fn joined_at_start(mut stretches: Vec<Stretch>) -> Vec<Stretch> {
 mod tests {
     use super::*;
     use crate::data::Ring;
-
-    fn square(x: f64, y: f64, side: f64) -> Ring {
-        [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-            .map(|(u, v)| Vec2::new(x + side * u, y + side * v))
-            .to_vec()
-    }
+    use crate::polygon::tests::square;
 
     /// A square of 10 with a hole of 2 in the middle, and an island in it.
     fn frame() -> Vec<Polygon> {

@@ -11,7 +11,7 @@ mod simplify;
 pub use edges::{EdgeGrid, Stretch, nearest_on_segment};
 pub use nesting::{nest, surrounds};
 pub use offset::{Join, offset, opened};
-pub use simplify::simplify;
+pub use simplify::{simplify, straightened};
 
 use crate::data::{Polygon, Ring};
 use crate::math::Vec2;
@@ -99,7 +99,7 @@ fn flat(ring: &[Vec2]) -> Vec<[f64; 2]> {
 }
 
 fn flat_rings(polygons: &[Polygon]) -> Flat {
-    polygons.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).map(|ring| flat(ring)).collect()
+    polygons.iter().flat_map(Polygon::rings).map(|ring| flat(ring)).collect()
 }
 
 fn rounded(points: Vec<[f64; 2]>) -> Vec<Vec2> {
@@ -118,7 +118,7 @@ fn polygons(shapes: Vec<Flat>) -> Vec<Polygon> {
 mod tests {
     use super::*;
 
-    fn square(x: f64, y: f64, side: f64) -> Ring {
+    pub(super) fn square(x: f64, y: f64, side: f64) -> Ring {
         [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
             .map(|(u, v)| Vec2::new(x + side * u, y + side * v))
             .to_vec()

@@ -1,4 +1,4 @@
-use crate::data::{Polygon, Ring, ascending, signed_area};
+use crate::data::{Polygon, Ring, ascending, sides, signed_area};
 use crate::math::Vec2;
 
 /// Sorts rings that do not cross into polygons: counter-clockwise ones are outer, each clockwise one is a hole of the
@@ -24,11 +24,10 @@ pub fn nest(rings: Vec<Ring>) -> Vec<Polygon> {
 
 /// Whether `p` lies inside a ring: the parity of its crossings with the ray towards +x.
 pub fn surrounds(ring: &[Vec2], p: Vec2) -> bool {
-    let crosses = |(a, b): (&Vec2, &Vec2)| {
+    let crosses = |(a, b): &(Vec2, Vec2)| {
         (a.y <= p.y) != (b.y <= p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x
     };
-    let next = ring.iter().cycle().skip(1);
-    ring.iter().zip(next).filter(|edge| crosses(*edge)).count() % 2 == 1
+    sides(ring).filter(crosses).count() % 2 == 1
 }
 
 #[cfg(test)]

@@ -1,8 +1,18 @@
 use crate::data::{Polygon, Ring, ascending};
-use crate::math::Vec2;
+use crate::math::{Vec2, orient};
 
 /// The tolerance grows to the one asked for in this many steps of two, so that what matters least goes first.
 const ROUNDS: i32 = 4;
+
+/// A ring without the vertices that lie exactly on the line between their neighbours: it encloses the same.
+pub fn straightened(ring: &[Vec2]) -> Ring {
+    let count = ring.len();
+    let is_between = |k: usize| {
+        let (before, p, after) = (ring[(k + count - 1) % count], ring[k], ring[(k + 1) % count]);
+        orient(before, p, after) == 0 && (p - before).dot(after - p) > 0.0
+    };
+    (0..count).filter(|k| !is_between(*k)).map(|k| ring[k]).collect()
+}
 
 /// Polygons with fewer vertices: those that went lie within `tolerance` (in the polygons' units) of what remains. Vertices only
 /// leave, and one leaves only if no other vertex lies in the triangle it makes with its neighbours: rings stay simple, nested as
@@ -11,7 +21,7 @@ pub fn simplify(polygons: &[Polygon], tolerance: f64) -> Vec<Polygon> {
     if tolerance <= 0.0 {
         return polygons.to_vec();
     }
-    let rings: Vec<&Ring> = polygons.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).collect();
+    let rings: Vec<&Ring> = polygons.iter().flat_map(Polygon::rings).collect();
     let mut outline = Outline::new(&rings);
     for round in (0..ROUNDS).rev() {
         let allowed = tolerance / f64::from(1 << round);
@@ -122,6 +132,7 @@ impl Outline {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::data::sides;
     use std::f64::consts::TAU;
 
     fn circle(center: Vec2, radius: f64, count: usize) -> Ring {
@@ -134,8 +145,8 @@ mod tests {
         let coarse = &simplify(std::slice::from_ref(&fine), 0.01)[0].outer;
         assert!((30..200).contains(&coarse.len()), "{}", coarse.len());
         // What lies between two that are left is at most the tolerance away.
-        for (a, b) in coarse.iter().zip(coarse.iter().cycle().skip(1)) {
-            assert!(10.0 - 0.5 * (*a + *b).length() < 0.011);
+        for (a, b) in sides(coarse) {
+            assert!(10.0 - 0.5 * (a + b).length() < 0.011);
         }
     }
 
@@ -151,5 +162,14 @@ mod tests {
         let resolved = crate::polygon::enclosed(&rings, Default::default());
         assert_eq!((resolved.len(), resolved[0].holes.len()), (1, 1));
         assert!((resolved[0].area() - simple.area()).abs() < 1e-9, "rings do not cross");
+    }
+
+    #[test]
+    fn only_what_lies_on_a_side_is_left_out() {
+        let ring = [(0.0, 0.0), (1.0, 0.0), (3.0, 0.0), (3.0, 2.0), (3.0, 2.5), (1.5, 1.25)].map(Vec2::from);
+        let corners = [(0.0, 0.0), (3.0, 0.0), (3.0, 2.5)].map(Vec2::from);
+        assert_eq!(straightened(&ring), corners);
+        let spike = [(0.0, 0.0), (4.0, 0.0), (2.0, 0.0), (2.0, 2.0)].map(Vec2::from);
+        assert_eq!(straightened(&spike), spike, "what folds back is a corner");
     }
 }

@@ -62,6 +62,8 @@ pub fn gcode(paths: &Toolpaths, profile: &PrinterProfile) -> Result<GCode, Print
     for_each_step(paths, profile, shift, &mut |step| writer.step(step));
     push_lines(&mut writer.text, &end);
     writer.text.push_str(";End of Gcode\n");
+    // Without a minus before zero.
+    let shift = shift + Vec3::ZERO;
     Ok(GCode { text: writer.text, shift, warnings: warnings(paths, profile, is_moved) })
 }
 

@@ -1,5 +1,5 @@
 //! Parallel lines in polygons: infill, skins and bridges.
-use crate::data::{Polygon, Ring, ascending, sorted_pairs};
+use crate::data::{Polygon, Ring, ascending, sides, sorted_pairs};
 use crate::math::Vec2;
 
 /// Lines go on along the border for at most so many spacings: rows that meet it at 10° are that far apart.
@@ -30,7 +30,7 @@ pub(super) fn hatch(area: &[Polygon], hatch: Hatch) -> Vec<Vec<Vec2>> {
     let turn = turn(hatch.angle);
     let rings: Vec<Ring> = area
         .iter()
-        .flat_map(|p| std::iter::once(&p.outer).chain(&p.holes))
+        .flat_map(Polygon::rings)
         .map(|ring| ring.iter().map(|p| back(turn).rotate(*p)).collect())
         .collect();
     let ends = ends(&rings, hatch.spacing);
@@ -74,7 +74,7 @@ fn ends(rings: &[Ring], spacing: f64) -> Vec<End> {
     let mut ends = Vec::new();
     for (number, ring) in rings.iter().enumerate() {
         let mut along = 0.0;
-        for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+        for (a, b) in sides(ring) {
             let (low, high) = (a.y.min(b.y), a.y.max(b.y));
             let row = |y: f64| (y / spacing - 0.5).floor() as i64;
             for row in row(low)..=row(high) + 1 {
@@ -142,8 +142,8 @@ impl<'a> Around<'a> {
     fn new(rings: &'a [Ring], ends: &[End]) -> Around<'a> {
         let lengths = |ring: &Ring| {
             let mut along = vec![0.0];
-            for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
-                along.push(along[along.len() - 1] + a.distance(*b));
+            for (a, b) in sides(ring) {
+                along.push(along[along.len() - 1] + a.distance(b));
             }
             along
         };

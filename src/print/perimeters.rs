@@ -42,7 +42,7 @@ pub(super) fn walls(shape: &[Polygon], settings: &ToolpathSettings) -> Walls {
         } else {
             walls.gaps.extend(narrow);
         }
-        let rings = middle.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes));
+        let rings = middle.iter().flat_map(Polygon::rings);
         walls.loops.extend(rings.map(|ring| Loop { ring: cleaned(ring, width), depth }));
         let is_last = depth + 1 == settings.perimeters;
         let overlap = if is_last { 0.0 } else { settings.wall_overlap };

@@ -2,6 +2,7 @@
 use super::path::Loop;
 use super::places::Places;
 use super::settings::Seam;
+use crate::data::sides;
 use crate::math::Vec2;
 use crate::polygon::nearest_on_segment;
 
@@ -79,7 +80,7 @@ fn start_anew(ring: &mut [Vec2]) {
 /// The edge with the point nearest to `p`, and the point.
 fn nearest_on_ring(ring: &[Vec2], p: Vec2) -> (usize, Vec2) {
     let mut best = (f64::INFINITY, 0, p);
-    for (edge, (&a, &b)) in ring.iter().zip(ring.iter().cycle().skip(1)).enumerate() {
+    for (edge, (a, b)) in sides(ring).enumerate() {
         let place = nearest_on_segment(p, a, b);
         if place.distance_squared(p) < best.0 {
             best = (place.distance_squared(p), edge, place);

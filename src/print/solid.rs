@@ -3,7 +3,7 @@ use super::areas::{area, grown_within, intersected, wide_parts, without};
 use super::hatch::{Hatch, hatch};
 use super::path::{Regions, Report, length_of};
 use super::settings::ToolpathSettings;
-use crate::data::Polygon;
+use crate::data::{Polygon, sides};
 use crate::math::Vec2;
 use crate::polygon::EdgeGrid;
 use std::f64::consts::PI;
@@ -197,7 +197,7 @@ fn bridge_direction(skin: &Polygon, width: f64, supports: &EdgeGrid) -> (f64, f6
 
 fn longest_edge(polygon: &Polygon) -> f64 {
     let ring = &polygon.outer;
-    let edges = ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| *b - *a);
+    let edges = sides(ring).map(|(a, b)| b - a);
     let longest =
         edges.fold(
             Vec2::ZERO,

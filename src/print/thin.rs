@@ -2,7 +2,7 @@
 //!
 //! The middle is where circles lie that touch both sides. From samples of the border each such circle is found by shrinking one
 //! that touches the sample until nothing is inside it; both sides find the same middle, of which one is kept.
-use crate::data::Polygon;
+use crate::data::{Polygon, sides};
 use crate::math::Vec2;
 use crate::polygon::{EdgeGrid, nearest_on_segment};
 use rustc_hash::FxHashMap;
@@ -33,7 +33,7 @@ struct Middle {
 /// line without them.
 pub(super) fn middle_lines(strips: &[Polygon], width: f64, detail: f64) -> Vec<MiddleLine> {
     let grid = EdgeGrid::new(strips);
-    let rings = strips.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes));
+    let rings = strips.iter().flat_map(Polygon::rings);
     let mut runs: Vec<(Vec<Middle>, bool)> = rings.flat_map(|ring| runs_of(ring, &grid, width)).collect();
     // The longest of two that follow the same middle: the other one may end early at a bend.
     runs.sort_by(|a, b| extent(&b.0).total_cmp(&extent(&a.0)));
@@ -81,7 +81,7 @@ fn extent(run: &[Middle]) -> f64 {
 fn runs_of(ring: &[Vec2], grid: &EdgeGrid, width: f64) -> Vec<(Vec<Middle>, bool)> {
     let step = width / SAMPLES_PER_WIDTH;
     let mut middles: Vec<Option<Middle>> = Vec::new();
-    for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+    for (a, b) in sides(ring) {
         let length = a.distance(b);
         if length == 0.0 {
             continue;

@@ -111,7 +111,7 @@ fn check(layers: &[Layer], settings: &ToolpathSettings) -> Result<(), PrintError
         if number > 0 && layer.z_top <= layers[number - 1].z_top {
             return Err(PrintError::NotAscending { layer: number, z: layer.z_top });
         }
-        let points = layer.polygons.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).flatten();
+        let points = layer.polygons.iter().flat_map(Polygon::rings).flatten();
         if points.clone().any(|p| !p.is_finite()) {
             return Err(PrintError::NonFinite { layer: number });
         }

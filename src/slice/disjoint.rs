@@ -1,5 +1,5 @@
 //! Rings that do not meet, as the sections of most solids are, sorted into polygons without an arrangement.
-use crate::data::{Polygon, Ring, ascending, signed_area};
+use crate::data::{Polygon, Ring, ascending, sides, signed_area};
 use crate::math::{Vec2, orient};
 use crate::polygon::nest;
 
@@ -25,7 +25,8 @@ impl Side {
 /// A sweep upwards: each side is compared with those that are still there, and what lies to the left of a ring's lowest point tells
 /// how often the others wind around it.
 pub(super) fn polygons_of_disjoint(rings: &[Ring]) -> Option<Vec<Polygon>> {
-    let sides: Vec<Side> = rings.iter().enumerate().flat_map(|(ring, points)| sides(ring, points)).collect();
+    let sides: Vec<Side> =
+        rings.iter().enumerate().flat_map(|(ring, points)| sides_of(ring, points)).collect();
     let mut outside: Vec<Option<i32>> = vec![None; rings.len()];
     let mut active: Vec<u32> = Vec::new();
     for index in ascending(sides.iter().map(|side| side.low.y)) {
@@ -54,9 +55,8 @@ pub(super) fn polygons_of_disjoint(rings: &[Ring]) -> Option<Vec<Polygon>> {
     Some(nest(kept.map(|(ring, _)| ring.clone()).collect()))
 }
 
-fn sides(ring: usize, points: &Ring) -> impl Iterator<Item = Side> {
-    let next = points.iter().cycle().skip(1);
-    points.iter().zip(next).enumerate().map(move |(place, (&a, &b))| {
+fn sides_of(ring: usize, points: &Ring) -> impl Iterator<Item = Side> {
+    sides(points).enumerate().map(move |(place, (a, b))| {
         let is_up = (a.y, a.x) < (b.y, b.x);
         let (low, high) = if is_up { (a, b) } else { (b, a) };
         Side { low, high, ring: ring as u32, place: place as u32, is_up }

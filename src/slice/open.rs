@@ -6,7 +6,7 @@ use super::disjoint::polygons_of_disjoint;
 use super::kept::{Directed, kept};
 use super::plane::Plane;
 use super::section::Segment;
-use crate::data::Polygon;
+use crate::data::{Polygon, sides};
 use crate::math::{Aabb, Vec2};
 use crate::polygon::{Fill, enclosed, surrounds};
 use rustc_hash::FxHashMap;
@@ -39,8 +39,7 @@ pub(super) fn polygons(segments: &[Segment], plane: &Plane, openings: &[Aabb]) -
         match ring {
             Missing::Nothing => return Some(polygons),
             Missing::Ring(ring) => {
-                let next = ring.iter().copied().cycle().skip(1);
-                parts.extend(ring.iter().copied().zip(next).map(|(a, b)| [a, b]));
+                parts.extend(sides(&ring).map(|(a, b)| [a, b]));
             }
         }
     }
@@ -110,14 +109,13 @@ fn within(polygons: &[Polygon], p: Vec2) -> bool {
 
 /// Whether each of some nodes is in polygons; nodes come in rows of equal y, of which the crossings with all sides are found together.
 fn all_within(polygons: &[Polygon], nodes: &[Vec2]) -> Vec<bool> {
-    let rings = || polygons.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes));
     let mut crossings: Vec<f64> = Vec::new();
     let mut of_row = f64::NAN;
     let is_within = |p: &Vec2| {
         if p.y != of_row {
             of_row = p.y;
-            let sides = rings().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
-            let crossed = sides.filter(|(a, b)| (a.y <= p.y) != (b.y <= p.y));
+            let all = polygons.iter().flat_map(Polygon::rings).flat_map(|ring| sides(ring));
+            let crossed = all.filter(|(a, b)| (a.y <= p.y) != (b.y <= p.y));
             crossings.clear();
             crossings.extend(crossed.map(|(a, b)| a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)));
             crossings.sort_by(f64::total_cmp);

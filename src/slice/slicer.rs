@@ -4,7 +4,7 @@ use super::section::{BLOCK, Sections, Segment};
 use super::{SliceConfig, SliceMode, Span, chains, disjoint, open};
 use crate::data::{LatticeError, Layer, Polygon, Shape, ascending, map_tasks};
 use crate::math::Aabb;
-use crate::polygon::{Boolean, Fill, combined, enclosed, simplify};
+use crate::polygon::{Boolean, Fill, combined, enclosed, simplify, straightened};
 use crate::winding::WindingField;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -153,6 +153,11 @@ impl<'a> Slicer<'a> {
     fn layer(&self, place: usize, mut polygons: Vec<Polygon>) -> Layer {
         if self.config.mode == SliceMode::Largest {
             polygons = largest(polygons);
+        }
+        // Flat walls of many triangles have straight contours.
+        for polygon in &mut polygons {
+            polygon.outer = straightened(&polygon.outer);
+            polygon.holes.iter_mut().for_each(|hole| *hole = straightened(hole));
         }
         if self.config.simplify > 0.0 {
             polygons = simplify(&polygons, self.config.simplify);

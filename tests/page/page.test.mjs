@@ -1,22 +1,12 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { after, before, describe, test } from 'node:test';
-import { launch } from './browser.mjs';
+import { describe, test } from 'node:test';
 import { boxObj, boxStl, sphereXyz } from './models.mjs';
 import { contourAt, drawnPixels, dropFile, fact, number, openPage, sampleHeight, settled, slide } from './page.mjs';
 import { serve } from './serve.mjs';
+import { served } from './site.mjs';
 
-let browser;
-let server;
-
-before(async () => {
-  [browser, server] = await Promise.all([launch(), serve()]);
-});
-
-after(async () => {
-  await browser?.close();
-  await server?.close();
-});
+const site = served();
 
 /** A box of 40 × 30 × 20 mm: its layers have an area of 1,200 mm² and a perimeter of 140 mm. */
 const BOX = boxStl([0, 0, 0], [40, 30, 20]);
@@ -30,7 +20,7 @@ async function picture(page) {
 }
 
 async function withPage(options, work) {
-  const page = await openPage(browser, server.url, options);
+  const page = await openPage(site.browser, site.server.url, options);
   try {
     await work(page);
     assert.deepEqual(page.errors, [], 'no uncaught error on the page');
@@ -339,7 +329,7 @@ describe('a cloud', () => {
 describe('without cross-origin isolation', () => {
   test('the page works on one thread, says why, and survives a cancel', async () => {
     const plain = await serve({ isolated: false });
-    const page = await openPage(browser, plain.url);
+    const page = await openPage(site.browser, plain.url);
     try {
       assert.equal(await page.evaluate(() => crossOriginIsolated), false);
       assert.equal(await fact(page, 'engine-facts', 'Threads'), '1');
@@ -442,9 +432,9 @@ describe('the layout', () => {
   }
 
   test('follows the system into the dark, and the button leads out', async () => {
-    const context = await browser.newContext({ colorScheme: 'dark' });
+    const context = await site.browser.newContext({ colorScheme: 'dark' });
     const page = await context.newPage();
-    await page.goto(server.url);
+    await page.goto(site.server.url);
     const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
     const dark = await paper();
     await page.click('#theme');

@@ -1,30 +1,19 @@
 /** Preparing a print on the page: settings, the printer, the preview, and what is saved. */
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { after, before, describe, test } from 'node:test';
-import { launch } from './browser.mjs';
+import { describe, test } from 'node:test';
 import { boxStl } from './models.mjs';
 import { dropFile, fact, openPage, settled, slide } from './page.mjs';
-import { serve } from './serve.mjs';
+import { served } from './site.mjs';
 
-let browser;
-let server;
-
-before(async () => {
-  [browser, server] = await Promise.all([launch(), serve()]);
-});
-
-after(async () => {
-  await browser?.close();
-  await server?.close();
-});
+const site = served();
 
 /** 20 layers of 0.2 mm. */
 const BOX = boxStl([0, 0, 0], [20, 20, 4]);
 
 /** A page that shows the box, or another model of 12 triangles. */
 async function withBox(work, { bytes = BOX, ...size } = {}) {
-  const page = await openPage(browser, server.url, size);
+  const page = await openPage(site.browser, site.server.url, size);
   try {
     await dropFile(page, 'box.stl', bytes);
     await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
@@ -181,7 +170,7 @@ describe('a print', () => {
     }));
 
   test('is cancelled while it is prepared, and the page goes on', async () => {
-    const page = await openPage(browser, server.url);
+    const page = await openPage(site.browser, site.server.url);
     try {
       await page.click('#prepare:enabled');
       await page.waitForSelector('#job:not([hidden])');

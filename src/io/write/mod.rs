@@ -85,7 +85,7 @@ fn vertices(soup: &TriangleSoup) -> impl Iterator<Item = Vec3> + '_ {
 
 /// The rings of polygons, each outer one before its holes.
 fn rings(polygons: &[Polygon]) -> impl Iterator<Item = &Ring> {
-    polygons.iter().flat_map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes))
+    polygons.iter().flat_map(Polygon::rings)
 }
 
 /// A number in as few digits as give the same one back.
