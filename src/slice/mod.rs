@@ -29,9 +29,9 @@ use slicer::Slicer;
 /// How contours are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceConfig {
-    /// Of clouds: cells along the longest side of the bounds; used when `spacing` is not given.
+    /// Of clouds, and of soups of loose triangles: cells along the longest side of the bounds; used when `spacing` is not given.
     pub resolution: usize,
-    /// Of clouds: edge of a cell in millimetres. Contours are exact where they cross the cells' edges; a corner inside a cell is cut
+    /// Of these: edge of a cell in millimetres. Contours are exact where they cross the cells' edges; a corner inside a cell is cut
     /// by at most 0.7 of this.
     pub spacing: Option<f64>,
     pub mode: SliceMode,
