@@ -40,8 +40,7 @@ pub(super) fn join(segments: &[Segment]) -> Chains {
         *slot = other[found];
         Some(found)
     };
-    let is_start_of_path = starts_of_paths(segments, chains.branches);
-    for start in is_start_of_path.into_iter().chain(segments.iter().map(|s| s[0])) {
+    for start in starts_of_paths(segments).into_iter().chain(segments.iter().map(|s| s[0])) {
         let Some(k) = take(start) else { continue };
         let mut points = vec![segments[k][0]];
         let mut end = segments[k][1];
@@ -58,7 +57,7 @@ pub(super) fn join(segments: &[Segment]) -> Chains {
 }
 
 /// Points where more segments start than end, as often as that: from there paths are followed whole.
-fn starts_of_paths(segments: &[Segment], branches: bool) -> Vec<Vec2> {
+fn starts_of_paths(segments: &[Segment]) -> Vec<Vec2> {
     let mut balance: FxHashMap<u128, i32> = FxHashMap::default();
     balance.reserve(segments.len());
     for segment in segments {
@@ -72,7 +71,6 @@ fn starts_of_paths(segments: &[Segment], branches: bool) -> Vec<Vec2> {
             starts.push(segment[0]);
         }
     }
-    debug_assert!(branches || starts.len() <= segments.len());
     starts
 }
 

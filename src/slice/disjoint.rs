@@ -1,7 +1,8 @@
 //! Rings that do not meet, as the sections of most solids are, sorted into polygons without an arrangement.
+use super::chains::Chains;
 use crate::data::{Polygon, Ring, ascending, sides, signed_area};
 use crate::math::{Vec2, orient};
-use crate::polygon::nest;
+use crate::polygon::{Fill, enclosed, nest};
 
 /// A side of a ring, from its lower end to its upper one.
 struct Side {
@@ -18,6 +19,12 @@ impl Side {
     fn span(&self) -> (f64, f64) {
         (self.low.x.min(self.high.x), self.low.x.max(self.high.x))
     }
+}
+
+/// The polygons that the loops of chains wind around at least once.
+pub(super) fn polygons_of(chains: &Chains) -> Vec<Polygon> {
+    let disjoint = if chains.branches { None } else { polygons_of_disjoint(&chains.loops) };
+    disjoint.unwrap_or_else(|| enclosed(&chains.loops, Fill::Positive))
 }
 
 /// The polygons that rings wind around at least once; none if rings meet or cross, themselves or each other.

@@ -94,7 +94,7 @@ pub fn slice(
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SliceReport {
     pub layers: usize,
-    /// Layers of open soups whose contours were traced on a grid, as arcs in their openings did not come to an end.
+    /// Layers of soups whose contours were traced on a grid: of loose triangles, or as arcs in openings did not come to an end.
     pub approximated: usize,
 }
 

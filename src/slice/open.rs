@@ -1,14 +1,14 @@
 //! The contours of shapes that are not closed: the section where it separates inside from outside, and arcs between its ends.
 use super::arcs::Arcs;
 use super::arrangement::pieces;
-use super::chains::{Chains, join, key};
-use super::disjoint::polygons_of_disjoint;
+use super::chains::{join, key};
+use super::disjoint::polygons_of;
 use super::kept::{Directed, kept};
 use super::plane::Plane;
 use super::section::Segment;
 use crate::data::{Polygon, sides};
 use crate::math::{Aabb, Vec2};
-use crate::polygon::{Fill, enclosed, surrounds};
+use crate::polygon::surrounds;
 use rustc_hash::FxHashMap;
 
 /// Nodes along the longer side of an opening's surroundings where contours are compared with the field.
@@ -29,7 +29,7 @@ pub(super) fn polygons(segments: &[Segment], plane: &Plane, openings: &[Aabb]) -
     let scan = nodes(openings, plane);
     let inside = plane.all_inside(&scan);
     for _ in 0..MOST_ARCS {
-        let polygons = polygons_of(&parts);
+        let polygons = polygons_of(&join(&parts));
         let within = all_within(&polygons, &scan);
         let wrong: Vec<usize> = (0..scan.len()).filter(|k| within[*k] != inside[*k]).collect();
         if wrong.is_empty() {
@@ -93,12 +93,6 @@ fn join_next(excess: &mut FxHashMap<u128, i32>, parts: &mut Vec<Directed>, reach
             }
         }
     }
-}
-
-fn polygons_of(parts: &[Directed]) -> Vec<Polygon> {
-    let Chains { loops, branches, .. } = join(parts);
-    let disjoint = if branches { None } else { polygons_of_disjoint(&loops) };
-    disjoint.unwrap_or_else(|| enclosed(&loops, Fill::Positive))
 }
 
 fn within(polygons: &[Polygon], p: Vec2) -> bool {

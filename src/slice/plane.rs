@@ -1,5 +1,5 @@
 use crate::data::Silent;
-use crate::math::Vec2;
+use crate::math::{Aabb, Vec2};
 use crate::winding::{Accuracy, Scratch, WindingField};
 use std::cell::RefCell;
 
@@ -10,7 +10,7 @@ pub(super) struct Plane<'a> {
     pub region: Region,
     /// The longer side of the bounds in the plane.
     pub size: f64,
-    /// How far from a piece of the section its sides are looked at: far above rounding, far below anything that is meant.
+    /// How far from a piece of the section its sides are looked at.
     pub aside: f64,
     scratch: RefCell<Scratch>,
 }
@@ -24,16 +24,20 @@ pub(super) enum Region {
     Below(f64),
 }
 
-/// Share of the size, and of the coordinates, by which sides are looked at.
-const ASIDE: f64 = 1e-10;
+/// Share of the size, and of a hundredth of the coordinates.
+const TINY: f64 = 1e-10;
+
+/// Far above the rounding of coordinates within bounds, far below anything that is meant.
+pub(super) fn tiny(bounds: Aabb) -> f64 {
+    let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+    TINY * bounds.size().max_element().max(1e-2 * largest)
+}
 
 impl<'a> Plane<'a> {
     pub fn new(field: &'a WindingField, z: f64, region: Region) -> Plane<'a> {
         let bounds = field.bounds();
         let size = bounds.size().truncate().max_element();
-        let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
-        let aside = ASIDE * size.max(1e-2 * largest);
-        Plane { field, z, region, size, aside, scratch: RefCell::default() }
+        Plane { field, z, region, size, aside: tiny(bounds), scratch: RefCell::default() }
     }
 
     pub fn is_inside(&self, p: Vec2) -> bool {

@@ -1,5 +1,5 @@
 use super::grid::GridTracer;
-use super::plane::{Plane, Region};
+use super::plane::{Plane, Region, tiny};
 use super::section::{BLOCK, Sections, Segment};
 use super::{SliceConfig, SliceMode, Span, chains, disjoint, open};
 use crate::data::{LatticeError, Layer, Polygon, Shape, ascending, map_tasks};
@@ -44,13 +44,11 @@ impl<'a> Slicer<'a> {
     ) -> Result<Slicer<'a>, LatticeError> {
         let order = ascending(spans.iter().map(|span| span.sample));
         let way = match field.shape() {
-            Shape::Cloud(_) => {
-                field.prepare_single_points();
-                Way::Grid(GridTracer::new(field, config)?)
-            }
-            Shape::Soup(soup) => {
+            // Of many loose triangles each evaluation sums all there are, and each triangle has two ends.
+            Shape::Soup(soup) if field.report().loose_components == 0 => {
                 GridTracer::check(field, config)?;
-                let lift = if field.is_closed() { 0.0 } else { lift(field.bounds()) };
+                // A field has a single value on faces in the plane: what is half open of a section has to be of the field too.
+                let lift = if field.is_closed() { 0.0 } else { tiny(field.bounds()) };
                 let heights = order.iter().map(|k| spans[*k as usize].sample + lift).collect();
                 let sections = Sections::new(soup, heights);
                 if field.is_closed() {
@@ -60,8 +58,14 @@ impl<'a> Slicer<'a> {
                     Way::Open { sections, order, openings: field.openings(), grid: OnceLock::new() }
                 }
             }
+            _ => {
+                field.prepare_single_points();
+                Way::Grid(GridTracer::new(field, config)?)
+            }
         };
-        Ok(Slicer { field, config: *config, spans, way, approximated: AtomicUsize::new(0) })
+        let by_grid = matches!((&way, field.shape()), (Way::Grid(_), Shape::Soup(_)));
+        let approximated = AtomicUsize::new(if by_grid { spans.len() } else { 0 });
+        Ok(Slicer { field, config: *config, spans, way, approximated })
     }
 
     /// Layers of [`Slicer::block`].
@@ -69,7 +73,7 @@ impl<'a> Slicer<'a> {
         self.spans.len().div_ceil(BLOCK)
     }
 
-    /// Layers of which the contours are those of a grid, as arcs in their openings did not come to an end.
+    /// Layers of a soup of which the contours are those of a grid.
     pub fn approximated(&self) -> usize {
         self.approximated.load(Relaxed)
     }
@@ -92,15 +96,12 @@ impl<'a> Slicer<'a> {
                 sections.block(block).iter().enumerate().map(of_layer).collect()
             }
             Way::Open { sections, order, openings, grid } => {
-                // Of many loose triangles each evaluation sums all there are, and each triangle has two ends.
-                let is_loose = self.field.report().loose_components > 0;
                 let of_layer = |(k, segments): (usize, &Vec<Segment>)| {
                     let place = order[first + k] as usize;
                     let z = sections.height(first + k);
                     let polygons = self.by_mode(|region| {
-                        let plane = Plane::new(self.field, z, region);
-                        let exact = (!is_loose).then(|| open::polygons(segments, &plane, openings)).flatten();
-                        exact.unwrap_or_else(|| self.by_grid(grid, z, region))
+                        open::polygons(segments, &Plane::new(self.field, z, region), openings)
+                            .unwrap_or_else(|| self.by_grid(grid, z, region))
                     });
                     (place, self.layer(place, polygons))
                 };
@@ -125,11 +126,7 @@ impl<'a> Slicer<'a> {
         let chains = chains::join(segments);
         match self.config.mode {
             SliceMode::EvenOdd => enclosed(&chains.loops, Fill::EvenOdd),
-            SliceMode::Winding | SliceMode::Largest => {
-                let disjoint =
-                    if chains.branches { None } else { disjoint::polygons_of_disjoint(&chains.loops) };
-                disjoint.unwrap_or_else(|| enclosed(&chains.loops, Fill::Positive))
-            }
+            SliceMode::Winding | SliceMode::Largest => disjoint::polygons_of(&chains),
         }
     }
 
@@ -171,10 +168,4 @@ impl<'a> Slicer<'a> {
 fn largest(polygons: Vec<Polygon>) -> Vec<Polygon> {
     let outlines = polygons.into_iter().map(|p| Polygon { outer: p.outer, holes: Vec::new() });
     outlines.max_by(|a, b| a.area().total_cmp(&b.area())).into_iter().collect()
-}
-
-/// How far above the plane asked for open shapes are cut: a field has a single value on faces in the plane, and what is half
-/// open of a section has to be of the field too.
-fn lift(bounds: Aabb) -> f64 {
-    1e-10 * bounds.size().max_element().max(1e-2 * bounds.min.abs().max(bounds.max.abs()).max_element())
 }
