@@ -84,22 +84,24 @@ pub fn print_settings(settings: JsValue, profile: JsValue, size: JsValue) -> Res
 
 /// What a JavaScript object says; an error where it has a name that the defaults do not have: it would be overlooked.
 fn known<T: Serialize + DeserializeOwned + Default>(given: JsValue) -> Result<T, Failure> {
-    check_names(&given, &plain(&T::default())?)?;
+    check_names(&given, &plain(&T::default())?, "")?;
     from_js(given)
 }
 
-fn check_names(given: &JsValue, defaults: &JsValue) -> Result<(), Failure> {
+/// `path` is what leads to the object, with a dot after it.
+fn check_names(given: &JsValue, defaults: &JsValue, path: &str) -> Result<(), Failure> {
     let (Some(given), Some(defaults)) = (given.dyn_ref::<Object>(), defaults.dyn_ref::<Object>()) else {
         return Ok(());
     };
     let names = Object::keys(defaults);
     for name in Object::keys(given).iter() {
+        let full = format!("{path}{}", name.as_string().unwrap_or_default());
         if !names.includes(&name, 0) {
-            let (name, known) = (name.as_string().unwrap_or_default(), names.join(", "));
-            return Err(Failure::invalid(format!("bad options: '{name}' is not known; known are {known}")));
+            let known = names.join(", ");
+            return Err(Failure::invalid(format!("bad options: '{full}' is not known; known are {known}")));
         }
         let of = |object: &Object| Reflect::get(object, &name).unwrap_or(JsValue::UNDEFINED);
-        check_names(&of(given), &of(defaults))?;
+        check_names(&of(given), &of(defaults), &format!("{full}."))?;
     }
     Ok(())
 }

@@ -74,6 +74,10 @@ describe('a print', () => {
       assert.equal(await fact(page, 'print-facts', 'Layers'), '20');
       assert.equal(await page.textContent('#print-layer-out'), 'layer 20 of 20, 4 mm');
 
+      const slices = await saved(page, '#slices-download');
+      assert.equal(slices.name, 'box-layers.3mf');
+      assert.ok(slices.text.startsWith('PK') && slices.text.includes('3D/3dmodel.model'));
+
       const { name, text } = await saved(page, '#gcode-download');
       assert.equal(name, 'box.gcode');
       assert.equal(text.match(/^;LAYER:\d+$/gm).length, 20);
@@ -242,8 +246,8 @@ describe('a printer', () => {
   test('that is none is told in words, and the last one stays', () =>
     withBox(async (page) => {
       for (const [text, reason] of [
-        ['{ "bed": 180 }', /"bed".*bedWidth/],
-        ['{ "speeds": { "walls": 50 } }', /"speeds\.walls"/],
+        ['{ "bed": 180 }', /'bed'.*bedWidth/],
+        ['{ "speeds": { "walls": 50 } }', /'speeds\.walls'/],
         ['{ "bedWidth": -1 }', /bedWidth cannot be -1/i],
         ['bed = 180', /JSON/],
         ['[]', /no object/],

@@ -66,23 +66,10 @@ export async function loadProfile(page: Page, file: File): Promise<void> {
     const given: unknown = JSON.parse(await file.text());
     if (!isRecord(given)) throw new Error('the file holds no object with the values of a printer');
     const { profile } = await page.engine.printSettings({ profile: given as PrinterProfile });
-    const stranger = strangerIn(given, { ...profile });
-    if (stranger) throw new Error(`a printer has no "${stranger}", only ${Object.keys(profile).join(', ')}`);
     if (store.state.recipe) store.set({ recipe: withProfile(store.state.recipe, profile) });
   } catch (error) {
     await fail(page, `${file.name} is no printer profile`, error);
   }
-}
-
-/** The first name in `given` that is not known: a mistyped one would be passed over in silence. */
-function strangerIn(given: Record<string, unknown>, known: Record<string, unknown>): string | undefined {
-  for (const [name, value] of Object.entries(given)) {
-    if (!(name in known)) return name;
-    const inner = known[name];
-    const stranger = isRecord(value) && isRecord(inner) ? strangerIn(value, inner) : undefined;
-    if (stranger) return `${name}.${stranger}`;
-  }
-  return undefined;
 }
 
 function isRecord(value: unknown): value is Record<string, unknown> {

@@ -21,6 +21,21 @@ export async function saveLayer(page: Page, layer: Layer): Promise<void> {
   });
 }
 
+/** All layers of the print that is ready: as 3MF slices beside the mesh that they are of, or as one drawing where there is none. */
+export async function saveLayers(page: Page): Promise<void> {
+  const { model, print } = page.store.state;
+  if (!model || !print) return;
+  const layers = [...print.value.layers];
+  await told(page, async () => {
+    if (model.shape.kind === 'soup') {
+      const slices = await page.engine.exportLayers(layers, '3mf', await model.shape.geometry());
+      download(slices, `${nameOf(page)}-layers.3mf`, 'model/3mf');
+    } else {
+      download(await page.engine.exportLayers(layers, 'svg'), `${nameOf(page)}-layers.svg`, 'image/svg+xml');
+    }
+  });
+}
+
 /** The printer's program of the print that is ready. */
 export function saveGCode(page: Page): void {
   const print = page.store.state.print?.value;

@@ -1,5 +1,5 @@
 import { loadProfile, preparePrint } from '../actions/print.ts';
-import { saveGCode, saveLayer, saveProfile } from '../actions/save.ts';
+import { saveGCode, saveLayer, saveLayers, saveProfile } from '../actions/save.ts';
 import { byId, setFacts } from '../dom.ts';
 import { bytes, count, duration, length, mass, milliseconds, significant } from '../format.ts';
 import type { Page } from '../page.ts';
@@ -22,6 +22,7 @@ export function printPanel(page: Page): void {
   enableWhenUsable(page, byId<HTMLButtonElement>('prepare'), ({ recipe, misfit }) => recipe !== undefined && misfit === undefined);
   byId('prepare').addEventListener('click', () => void preparePrint(page));
   byId('gcode-download').addEventListener('click', () => saveGCode(page));
+  byId('slices-download').addEventListener('click', () => void saveLayers(page));
   byId('print-layer-download').addEventListener('click', () => {
     const { print, nozzle } = store.state;
     if (print) void saveLayer(page, print.value.layers[nozzle.layer]);
@@ -61,7 +62,7 @@ function isTiny({ recipe, model }: State): boolean {
 }
 
 function showPrint(print: Timed<Print> | undefined): void {
-  byId<HTMLButtonElement>('gcode-download').disabled = !print;
+  for (const id of ['gcode-download', 'slices-download']) byId<HTMLButtonElement>(id).disabled = !print;
   const warnings = print?.value.warnings ?? [];
   byId('print-warnings').hidden = warnings.length === 0;
   byId('print-warnings').replaceChildren(
