@@ -1,6 +1,7 @@
 // Splits functions off a WebAssembly module into a second one that shares its memory, tables and globals and can be loaded
 // later: in the first, a stub takes the place of each, which calls it through the table, after asking for it if need be.
 import { readFileSync, writeFileSync } from 'node:fs';
+import { withOwnCallees } from './calls.mjs';
 import { npmTool } from './npm.mjs';
 import { KIND, SECTION, contentOf, moduleOf, name, sectionsOf, signed, unsigned, vector } from './module.mjs';
 import { StepFailed, run } from './run.mjs';
@@ -96,15 +97,16 @@ function exportsFor(second) {
 }
 
 /**
- * Splits the module in the file `main`: functions whose names match `isMoved` go to the file `second`, optimised already,
- * as `options` of wasm-opt say.
+ * Splits the module in the file `main`: functions whose names match `isMoved`, and those that only these call, go to the file `second`,
+ * optimised already, as `options` of wasm-opt say.
  */
 export async function split(main, second, isMoved, options) {
   const sections = sectionsOf(readFileSync(main));
   const content = contentOf(sections);
   const imported = content.functions.length - content.bodies.length;
-  const moved = [...content.names].filter(([index, name]) => index >= imported && isMoved.test(name)).map(([index]) => index);
-  if (moved.length === 0) throw new StepFailed(`no function of ${main} has a name like ${isMoved}`);
+  const named = [...content.names].filter(([index, name]) => index >= imported && isMoved.test(name)).map(([index]) => index);
+  const moved = await withOwnCallees(sections, named, content, second);
+  if (named.length === 0) throw new StepFailed(`no function of ${main} has a name like ${isMoved}`);
   const [table] = content.tables;
   if (table?.element !== FUNCREF) throw new StepFailed(`the first table of ${main} holds no functions`);
   writeFileSync(second, movedModule(sections, content, moved, table.min));

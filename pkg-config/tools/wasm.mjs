@@ -14,8 +14,6 @@ const IN_MORE = new RegExp(
   [
     String.raw`fast_winding\[[0-9a-f]+\]::((orient|estimate|polygon|print|surface|wasm::(printing|layers)|io::write::(dxf|json|svg|threemf)|io::threemf::packer|levelset::(cubes|cube_cases|bricks|blur|roots|sampling|squares)|treecode::mutual)::|slice::(?!heat_map))`,
     String.raw`\bi_(overlay|float|shape|tree|key_sort)\[`,
-    // What only these call.
-    String.raw`wasm::options::(layer_from|from_js::<.*(Slice|Surface)Options|PolygonObject|LayerObject)|hashbrown.*(u128|\(i64, i64\))|int_sqrt::u128|miniz_oxide\[[0-9a-f]+\]::deflate::|::Deflate as |mem::Compress\b`,
     '^(toolpaths|gcode|printSettings|exportLayers?|handle_(slice|layerSpans|surface|noise))$',
   ].join('|'),
 );

@@ -17,7 +17,7 @@ PEERS = [
     "open3d==0.20.0",
 ]
 # Readers of the formats that layers are written in.
-READERS = ["numpy==2.4.6", "ezdxf==1.4.5", "lib3mf==2.5.0", "networkx==3.6.1", "svgpathtools==1.8.0", "trimesh==5.2.0"]
+READERS = ["numpy==2.4.6", "ezdxf==1.4.5", "lib3mf==2.5.0", "lxml==6.1.3", "networkx==3.6.1", "svgpathtools==1.8.0", "trimesh==5.2.0"]
 # Open3D's wheel loads these libraries of the system.
 DEBIAN_PACKAGES = ["libusb-1.0-0", "libgl1", "libgomp1", "libx11-6"]
 
