@@ -41,7 +41,7 @@ pub fn voxels_to(voxels: &Voxels, format: VoxelFormat, surface: bool) -> Result<
         VoxelFormat::Bits => bytes_to(voxels.bits())?,
     };
     let lattice = voxels.lattice();
-    let surface = surface.then(|| mesh_to(&voxels.surface())).transpose()?;
+    let surface = surface.then(|| voxels.surface()).transpose()?.as_ref().map(mesh_to).transpose()?;
     Ok(object([
         ("counts", counts_to(&lattice.counts)),
         ("origin", triple_to(lattice.origin)),

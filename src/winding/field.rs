@@ -496,6 +496,55 @@ impl WindingField {
         }
     }
 
+    /// [`WindingField::classify_lattice`], handed to `store` some planes at a time with the first of them, which is a multiple of
+    /// eight. Those of clouds and loose triangles come all at once.
+    ///
+    /// # Errors
+    /// As [`WindingField::classify_lattice`].
+    pub(crate) fn classify_planes(
+        &self,
+        lattice: &Lattice,
+        threshold: f64,
+        monitor: &dyn Monitor,
+        store: &mut dyn FnMut(usize, &[u8]),
+    ) -> Result<(), FieldError> {
+        match &self.engine {
+            Engine::Soup(soup) if soup.many.is_none() => {
+                soup.for_each_group_of_planes(lattice, threshold, monitor, store)
+            }
+            _ => {
+                store(0, &self.classify_lattice(lattice, threshold, monitor)?);
+                Ok(())
+            }
+        }
+    }
+
+    /// Which samples of a lattice have w ≥ `threshold` as the evaluator of Barill et al. 2018 has it, with its parameters and
+    /// without proof: one bit for each, as of [`WindingField::classify_lattice`].
+    ///
+    /// # Errors
+    /// As [`WindingField::classify_lattice`].
+    pub fn classify_lattice_fast(
+        &self,
+        lattice: &Lattice,
+        (order, beta): (Order, f64),
+        threshold: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u8>, FieldError> {
+        let mut bits = zeroed(lattice.len().div_ceil(8))?;
+        match &self.engine {
+            Engine::Soup(_) => drop(self.of_paper()),
+            Engine::Cloud(cloud) => drop(cloud.few()),
+        }
+        let accuracy = Accuracy::Explicit { order, beta };
+        let block = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
+            self.at_block(points, results, accuracy, scratch);
+        };
+        let store = |index: usize, w: f64| set_bit(&mut bits, index, w >= threshold);
+        for_each_lattice_block(lattice, block, store, "winding numbers", monitor)?;
+        Ok(bits)
+    }
+
     /// Whether `q` is inside.
     pub fn contains_point(&self, q: Vec3) -> bool {
         self.exceeds(q, HALF, &mut Scratch::default())
