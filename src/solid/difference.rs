@@ -22,6 +22,12 @@ impl VoxelDifference {
     pub fn count(&self) -> usize {
         self.lost.len() + self.gained.len()
     }
+
+    /// |A ∧ B| / |A ∨ B|, given the number of voxels inside the first; 1 if none is inside either.
+    pub fn intersection_over_union(&self, first: usize) -> f64 {
+        let union = first + self.gained.len();
+        if union == 0 { 1.0 } else { (first - self.lost.len()) as f64 / union as f64 }
+    }
 }
 
 /// Which voxels change from one set to another.

@@ -10,9 +10,10 @@ use super::locate::Locator;
 use super::many::Many;
 use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
-use crate::data::{BLOCK, TriangleSoup};
+use crate::data::{BLOCK, Loader, SavedError, Saver, TriangleSoup};
 use crate::math::{Aabb, Vec3, area_vector};
 use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig, direct_sums};
+use std::convert::Infallible;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
@@ -65,13 +66,46 @@ pub enum FractionBy {
 
 impl SoupField {
     pub fn new(soup: Arc<TriangleSoup>, config: &TreeConfig) -> SoupField {
-        let mut closure = Closure::of(&soup);
+        let closure = Closure::of(&soup);
+        let built = SoupField::with(soup, closure, config, |sources| Ok::<_, Infallible>(Many::new(sources)));
+        match built {
+            Ok(field) => field,
+            Err(never) => match never {},
+        }
+    }
+
+    /// Adds what was built to saved bytes.
+    pub fn save(&self, saver: &mut Saver) {
+        self.closure.save(self.curtain.cycles(), saver);
+        if let Some(many) = &self.many {
+            many.save(saver);
+        }
+    }
+
+    /// # Errors
+    /// If and only if the bytes end early or hold nothing that could be of the field of this soup.
+    pub fn load(
+        soup: Arc<TriangleSoup>,
+        config: &TreeConfig,
+        loader: &mut Loader,
+    ) -> Result<SoupField, SavedError> {
+        let closure = Closure::load(soup.len(), loader)?;
+        SoupField::with(soup, closure, config, |sources| Many::load(sources, loader))
+    }
+
+    fn with<E>(
+        soup: Arc<TriangleSoup>,
+        mut closure: Closure,
+        config: &TreeConfig,
+        many: impl FnOnce(Arc<Triangles>) -> Result<Many, E>,
+    ) -> Result<SoupField, E> {
         let curtain = Curtain::new(std::mem::take(&mut closure.cycles));
         let needs_tree = !closure.loose.is_empty() || curtain.edges() > FEW_EDGES;
         let closure = Arc::new(closure);
         let sources = Triangles::of_fraction(soup.clone(), closure.clone());
-        let many = (!closure.loose.is_empty()).then(|| Many::new(Arc::new(sources.clone())));
-        SoupField {
+        let many =
+            if closure.loose.is_empty() { None } else { Some(many(Arc::new(sources.clone()))?) };
+        Ok(SoupField {
             boundary: BoundaryField::new(curtain.cycles(), &closure.caps),
             needs_tree,
             tree: OnceLock::new(),
@@ -84,7 +118,7 @@ impl SoupField {
             locator: OnceLock::new(),
             answers: OnceLock::new(),
             refined: AtomicUsize::new(0),
-        }
+        })
     }
 
     pub fn counts(&self) -> ClosureCounts {

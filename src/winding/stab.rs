@@ -46,13 +46,19 @@ pub fn stab_lattice(
         StabCount::Parity => crossings & 1 == 1,
         StabCount::Signed => f64::from(crossings) >= threshold,
     };
-    let along_x = stab_rows(soup, lattice, &is_inside, monitor)?;
+    let axes = if stabbing.majority { 3 } else { 1 };
+    let part = |axis: usize| {
+        move |fraction: f64, stage: &str| {
+            monitor.report((axis as f64 + fraction) / f64::from(axes), stage).is_ok()
+        }
+    };
+    let along_x = stab_rows(soup, lattice, &is_inside, &part(0))?;
     if !stabbing.majority {
         return Ok(along_x);
     }
     let others = [1, 2].map(|axis| {
         let (soup, lattice) = (turned(soup, axis), turned_lattice(lattice, axis));
-        stab_rows(&soup, &lattice, &is_inside, monitor).map(|bits| (axis, lattice, bits))
+        stab_rows(&soup, &lattice, &is_inside, &part(axis)).map(|bits| (axis, lattice, bits))
     });
     let [y, z] = others;
     let others = [y?, z?];
