@@ -87,7 +87,7 @@ fn a_vote_of_three_axes_bridges_a_hole_that_one_of_them_meets() {
 #[test]
 fn approximations_differ_from_the_truth_where_it_is_near_the_threshold() {
     let soup = bunny();
-    let (lattice, field) = (lattice(&soup, 20), field(soup.clone()));
+    let (lattice, field) = (lattice(&soup, 11), field(soup.clone()));
     let exact = by(VoxelMethod::Lattice, &field, &lattice);
     let fast = by(VoxelMethod::Fast { order: Order::Two, beta: 2.0 }, &field, &lattice);
     for index in difference(&exact, &fast).unwrap().gained {
