@@ -17,6 +17,33 @@ fn voxels(soup: TriangleSoup, resolution: usize) -> Voxels {
     voxelize(&field, &lattice, &VoxelConfig::default(), &Silent).unwrap()
 }
 
+/// The same by the crate dot_vox.
+fn read_by_dot_vox(bytes: &[u8]) -> (Vec<[i32; 3]>, usize) {
+    use dot_vox::SceneNode;
+    let file = dot_vox::load_bytes(bytes).unwrap();
+    let mut all = Vec::new();
+    let mut open = vec![(0, [0; 3])];
+    while let Some((node, at)) = open.pop() {
+        match &file.scenes[node as usize] {
+            SceneNode::Transform { frames, child, .. } => {
+                let own = frames[0].position().map_or([0; 3], |p| [p.x, p.y, p.z]);
+                open.push((*child, [0, 1, 2].map(|axis| at[axis] + own[axis])));
+            }
+            SceneNode::Group { children, .. } => open.extend(children.iter().map(|child| (*child, at))),
+            SceneNode::Shape { models, .. } => {
+                let model = &file.models[models[0].model_id as usize];
+                let size = [model.size.x, model.size.y, model.size.z];
+                let place = |v: &dot_vox::Voxel| {
+                    let own = [v.x, v.y, v.z].map(i32::from);
+                    [0, 1, 2].map(|axis| own[axis] + at[axis] - size[axis] as i32 / 2)
+                };
+                all.extend(model.voxels.iter().map(place));
+            }
+        }
+    }
+    (all, file.models.len())
+}
+
 /// A chunk of a VOX file: its name, its content, the chunks in it.
 struct Chunk<'a> {
     name: &'a [u8],
@@ -85,9 +112,9 @@ fn read_vox(bytes: &[u8]) -> (Vec<[i32; 3]>, usize) {
                 let [reserved, _layer, frames] = [0, 1, 2].map(|_| word(&mut content));
                 assert_eq!((reserved, frames), (-1, 1));
                 let frame = dictionary(&mut content);
-                let place = frame.get("_t").map_or(vec![0; 3], |t| {
-                    t.split(' ').map(|n| n.parse::<i32>().unwrap()).collect()
-                });
+                let place = frame
+                    .get("_t")
+                    .map_or(vec![0; 3], |t| t.split(' ').map(|n| n.parse::<i32>().unwrap()).collect());
                 children.insert(node, vec![child]);
                 places.insert(node, place);
             }
@@ -167,7 +194,10 @@ fn a_large_lattice_is_models_with_places() {
         })
     };
     for content in [VoxContent::Solid, VoxContent::Shell] {
-        let (mut found, models) = read_vox(&vox(&voxels, content));
+        let bytes = vox(&voxels, content);
+        let (mut found, models) = read_vox(&bytes);
+        let (mut by_another, _) = read_by_dot_vox(&bytes);
+        by_another.sort();
         let mut expected: Vec<[i32; 3]> = inside(&voxels)
             .into_iter()
             .filter(|s| content == VoxContent::Solid || is_seen(s))
@@ -176,6 +206,7 @@ fn a_large_lattice_is_models_with_places() {
         found.sort();
         expected.sort();
         assert!(found == expected, "{} and {}", found.len(), expected.len());
+        assert!(by_another == expected, "{} and {}", by_another.len(), expected.len());
         // Of the 3 × 2 parts those at x from 512 and y from 256 hold nothing.
         assert_eq!(models, 5);
     }

@@ -1,5 +1,5 @@
 //! Voxels in bricks: memory grows with the surface of what is inside, not with its volume.
-use super::voxels::{check_lattice, VoxelDataError};
+use super::voxels::{VoxelDataError, check_lattice};
 use super::{Lattice, OutOfMemory, VoxelRows, Voxels, zeroed};
 
 /// Voxels along each side of a brick, and bricks along each side of a node.
@@ -241,7 +241,8 @@ impl VoxelBricks {
     /// If and only if they do not fit in memory.
     pub fn to_voxels(&self) -> Result<Voxels, OutOfMemory> {
         let bits = zeroed(self.lattice.len().div_ceil(8))?;
-        let mut voxels = Voxels::from_bits(self.lattice, bits).expect("as many bits as the lattice has samples");
+        let mut voxels =
+            Voxels::from_bits(self.lattice, bits).expect("as many bits as the lattice has samples");
         for (at, brick) in self.each() {
             let mask = self.mask(at);
             let bits = if let Brick::Mixed(bits) = brick { bits } else { &mask };

@@ -15,8 +15,8 @@ mod voxels;
 mod warning;
 
 pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit, zeroed};
-pub(crate) use bricks::{Directory, INSIDE, OUTSIDE, bit_of, mask_of_brick};
 pub use bricks::{BRICK_SIDE, Brick, BrickBits, VoxelBricks};
+pub(crate) use bricks::{Directory, INSIDE, OUTSIDE, bit_of, mask_of_brick};
 pub use cloud::{CloudError, OrientedCloud, PointCloud};
 pub use lattice::{Grid, Lattice, LatticeError};
 pub use layers::{Layer, Polygon, Ring, sides, signed_area};

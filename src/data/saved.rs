@@ -35,7 +35,7 @@ macro_rules! number {
         }
     )*};
 }
-number!(u8, u32, u64, f32, f64);
+number!(u8, i8, u32, u64, f32, f64);
 
 /// Bytes that grow by arrays.
 #[derive(Default)]

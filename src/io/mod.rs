@@ -21,9 +21,9 @@ mod xyz;
 pub use error::{Location, ReadError};
 pub use unit::{Unit, UnknownUnit};
 pub use write::{
-    CloudFormat, MeshFormat, MeshResolution, NrrdEncoding, SliceStackError, VoxContent, VoxError, write_cloud,
-    write_layer_svg, write_layers_3mf, write_layers_dxf, write_layers_json, write_layers_svg, write_nrrd, write_soup,
-    write_vox,
+    CloudFormat, MeshFormat, MeshResolution, NrrdEncoding, SliceStackError, VoxContent, VoxError,
+    write_cloud, write_layer_svg, write_layers_3mf, write_layers_dxf, write_layers_json, write_layers_svg,
+    write_nrrd, write_soup, write_vox,
 };
 
 use crate::data::{PointCloud, TriangleSoup, Warning};

@@ -1,10 +1,10 @@
 //! Voxels by continuation: only what lies along the level set is asked for, and only there are bricks.
 use super::VoxelError;
 use crate::data::{
-    BRICK_SIDE, BrickBits, Directory, INSIDE, Lattice, Monitor, OUTSIDE, OutOfMemory, VoxelBricks, bit_of,
-    mask_of_brick,
+    BRICK_SIDE, BrickBits, Directory, INSIDE, Lattice, Monitor, OUTSIDE, OutOfMemory, Shape, VoxelBricks,
+    bit_of, mask_of_brick,
 };
-use crate::levelset::cells_of_shape;
+use crate::levelset::for_each_cell_of_shape;
 use crate::math::Vec3;
 use crate::winding::{Scratch, WindingField};
 
@@ -116,11 +116,7 @@ pub(super) fn along_the_level_set(
     monitor: &dyn Monitor,
 ) -> Result<VoxelBricks, VoxelError> {
     let mut states = States { lattice, directory: Directory::new(lattice)?, bricks: Vec::new() };
-    let corner = lattice.origin - 0.5 * lattice.spacing;
-    let mut wave: Vec<usize> = cells_of_shape(field.shape(), corner, lattice.spacing)
-        .into_iter()
-        .filter_map(|c| index_of(lattice, c))
-        .collect();
+    let mut wave = seeds(field.shape(), lattice)?;
     // How far it has to go is not known.
     let undetermined = |_: f64, _: &str| monitor.report(0.0, "voxels").is_ok();
     undetermined.report(0.0, "voxels")?;
@@ -138,9 +134,37 @@ pub(super) fn along_the_level_set(
     Ok(bricks)
 }
 
-fn index_of(lattice: &Lattice, cell: [i32; 3]) -> Option<usize> {
-    let sample = cell.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
-    sample.iter().zip(lattice.counts).all(|(s, n)| *s < n).then(|| lattice.index(sample))
+/// The samples in whose cells some of a shape is, each once. They are collected in bricks: a list of what each triangle and point has
+/// would be many times as long.
+fn seeds(shape: &Shape, lattice: &Lattice) -> Result<Vec<usize>, OutOfMemory> {
+    let mut found = States { lattice, directory: Directory::new(lattice)?, bricks: Vec::new() };
+    let mut last = [-1; 3];
+    let corner = lattice.origin - 0.5 * lattice.spacing;
+    for_each_cell_of_shape(shape, corner, lattice.spacing, &mut |cell| {
+        let sample = cell.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
+        if cell != last && (0..3).all(|axis| sample[axis] < lattice.counts[axis]) {
+            found.set(sample, true);
+        }
+        last = cell;
+    });
+    let [nx, ny, nz] = found.directory.bricks();
+    let mut all = Vec::new();
+    for brick in (0..nx * ny * nz).map(|b| [b % nx, b / nx % ny, b / (nx * ny)]) {
+        let number = found.directory.get(brick);
+        if matches!(number, OUTSIDE | INSIDE) {
+            continue;
+        }
+        for (z, plane) in found.bricks[number as usize].known.into_iter().enumerate() {
+            let mut plane = plane;
+            while plane != 0 {
+                let place = plane.trailing_zeros() as usize;
+                plane &= plane - 1;
+                let [x, y, k] = brick.map(|b| b * BRICK_SIDE);
+                all.push(lattice.index([x + place % 8, y + place / 8, k + z]));
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// The samples next to one along the three axes.

@@ -1,7 +1,5 @@
 //! Errors as JavaScript sees them: `{ code, message, details }`, of which the client makes a `WindingError`.
-use crate::data::{
-    Cancelled, CloudError, LatticeError, OutOfMemory, SavedError, SoupError, VoxelDataError,
-};
+use crate::data::{Cancelled, CloudError, LatticeError, OutOfMemory, SavedError, SoupError, VoxelDataError};
 use crate::estimate::EstimateError;
 use crate::io::{Location, ReadError};
 use crate::levelset::TraceError;

@@ -311,7 +311,9 @@ impl Handle {
             }
         };
         if let Some(wanted) = kind.filter(|wanted| wanted != found && wanted != SAVED) {
-            return Err(Failure::invalid(format!("the file holds the field of a {found}: a {wanted} is needed")));
+            return Err(Failure::invalid(format!(
+                "the file holds the field of a {found}: a {wanted} is needed"
+            )));
         }
         Ok(Handle { source, format: SAVED, warnings: vec![], field: Some((field.config(), field)) })
     }

@@ -130,9 +130,7 @@ impl SoupField {
         let groups = BYTES_OF_GROUP / (size_of::<i16>() * GROUP_PLANES * plane.max(1));
         let group = GROUP_PLANES * groups.max(1);
         let scan = Scan::new(self.facets(), 0..self.facets().len(), lattice);
-        for (planes, bits) in
-            groups_of(lattice, group).zip(bits.chunks_mut((plane * group / 8).max(1)))
-        {
+        for (planes, bits) in groups_of(lattice, group).zip(bits.chunks_mut((plane * group / 8).max(1))) {
             self.bits_of_planes(&scan, lattice, planes, threshold, bits, monitor)?;
         }
         Ok(bits)
@@ -189,7 +187,8 @@ impl SoupField {
                 Least::Each(least) => {
                     let eights = counted.crossings.chunks(8).zip(least[first - start..].chunks(8));
                     for (byte, (crossings, least)) in bits.iter_mut().zip(eights) {
-                        *byte = byte_of(crossings.iter().zip(least).map(|(n, least)| *n >= i32::from(*least)));
+                        *byte =
+                            byte_of(crossings.iter().zip(least).map(|(n, least)| *n >= i32::from(*least)));
                     }
                 }
             }

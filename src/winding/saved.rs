@@ -1,18 +1,16 @@
 //! Fields as bytes: a shape and what was built for it, to be loaded rather than built again.
 //!
 //! A file is a mark, the version of what follows, its CRC-32 and its length, then the shape and its structure: of a soup the cycles
-//! around its openings and its loose triangles; of points, and of loose triangles, the hierarchy with its moments. What takes
-//! less time to build than to read is not in it: trees for single points and tables for scattered ones are built when they
-//! are first needed, as those of a new field are.
+//! around its openings, its loose triangles, and what is known of cells if it was prepared for scattered points; of points, and of
+//! loose triangles, the hierarchy with its moments. What takes about as long to read as to build is not in it: trees for single
+//! points and the columns of a soup are built when they are first needed, as those of a new field are.
 //!
 //! The bytes may be any: they are held against their checksum, and then every number against what it has to be. What cannot be told
 //! is whether a field that could be is that of the shape.
 use super::cloud_field::CloudField;
 use super::field::{Engine, WindingField};
 use super::soup_field::SoupField;
-use crate::data::{
-    CloudError, Loader, OrientedCloud, SavedError, Saver, Shape, SoupError, TriangleSoup,
-};
+use crate::data::{CloudError, Loader, OrientedCloud, SavedError, Saver, Shape, SoupError, TriangleSoup};
 use crate::treecode::TreeConfig;
 use flate2::Crc;
 use std::io::{self, Write};

@@ -43,6 +43,8 @@ pub struct SoupField {
     pub(super) many: Option<Many>,
     locator: OnceLock<Locator>,
     answers: OnceLock<Answers>,
+    /// Of the cells, if they were saved.
+    saved_answers: Vec<i8>,
     refined: AtomicUsize,
 }
 
@@ -80,6 +82,8 @@ impl SoupField {
         if let Some(many) = &self.many {
             many.save(saver);
         }
+        let of_cells = self.answers.get().map_or(&self.saved_answers, |answers| &answers.of_cells);
+        saver.numbers(of_cells);
     }
 
     /// # Errors
@@ -90,7 +94,9 @@ impl SoupField {
         loader: &mut Loader,
     ) -> Result<SoupField, SavedError> {
         let closure = Closure::load(soup.len(), loader)?;
-        SoupField::with(soup, closure, config, |sources| Many::load(sources, loader))
+        let mut field = SoupField::with(soup, closure, config, |sources| Many::load(sources, loader))?;
+        field.saved_answers = loader.numbers("the saved answers of cells")?;
+        Ok(field)
     }
 
     fn with<E>(
@@ -103,8 +109,7 @@ impl SoupField {
         let needs_tree = !closure.loose.is_empty() || curtain.edges() > FEW_EDGES;
         let closure = Arc::new(closure);
         let sources = Triangles::of_fraction(soup.clone(), closure.clone());
-        let many =
-            if closure.loose.is_empty() { None } else { Some(many(Arc::new(sources.clone()))?) };
+        let many = if closure.loose.is_empty() { None } else { Some(many(Arc::new(sources.clone()))?) };
         Ok(SoupField {
             boundary: BoundaryField::new(curtain.cycles(), &closure.caps),
             needs_tree,
@@ -117,6 +122,7 @@ impl SoupField {
             sources,
             locator: OnceLock::new(),
             answers: OnceLock::new(),
+            saved_answers: Vec::new(),
             refined: AtomicUsize::new(0),
         })
     }
@@ -154,6 +160,7 @@ impl SoupField {
     pub fn bytes(&self) -> usize {
         let locator = self.locator.get().map_or(0, Locator::bytes);
         let answers = self.answers.get().map_or(0, |a| a.of_cells.len());
+        let answers = answers + self.saved_answers.len();
         let many = self.many.as_ref().map_or(0, Many::bytes);
         let tree = self.tree.get().map_or(0, Tree::bytes);
         self.closure.bytes() + self.boundary.bytes() + tree + many + locator + answers
@@ -231,7 +238,13 @@ impl SoupField {
             return answers;
         }
         let is_known = self.is_closed() || !self.is_summed();
-        let of_cells = if is_known { vec![] } else { answers(self, self.locator()) };
+        let of_cells = if is_known {
+            vec![]
+        } else if self.saved_answers.len() == self.locator().cells().len() {
+            self.saved_answers.clone()
+        } else {
+            answers(self, self.locator())
+        };
         let cap_area = self.closure.caps.iter().map(|cap| area_vector(*cap).length()).sum();
         let _ = self.answers.set(Answers { of_cells, cap_area });
         self.answers.get().expect("it was set just now, here or by another thread")

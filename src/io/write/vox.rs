@@ -43,11 +43,7 @@ struct Model {
 ///
 /// # Errors
 /// If and only if the file would be larger than its lengths can say, or `out` refuses to be written to.
-pub fn write_vox(
-    voxels: &dyn VoxelRows,
-    content: VoxContent,
-    out: &mut impl Write,
-) -> Result<(), VoxError> {
+pub fn write_vox(voxels: &dyn VoxelRows, content: VoxContent, out: &mut impl Write) -> Result<(), VoxError> {
     let counts = voxels.lattice().counts;
     let parts = counts.map(|n| n.div_ceil(SIDE));
     let mut models: Vec<Model> = (0..parts.iter().product::<usize>())
@@ -131,7 +127,8 @@ fn scene(models: &[Model], counts: [usize; 3]) -> Vec<u8> {
         };
         let place = format!("{} {} {}", at(0), at(1), at(2));
         scene.extend(transform(place_of(k), place_of(k) + 1, 0, &[("_t", &place)]));
-        let shape = [words(&[place_of(k) as i32 + 1]), dictionary(&[]), words(&[1, k as i32]), dictionary(&[])];
+        let shape =
+            [words(&[place_of(k) as i32 + 1]), dictionary(&[]), words(&[1, k as i32]), dictionary(&[])];
         scene.extend(chunk(b"nSHP", &shape.concat()));
     }
     scene

@@ -49,22 +49,21 @@ impl Clusters {
         }
         let is_whole = items.len() == sources.len() && !is_there.contains(&false);
         // Radii, areas and spreads are no less than 0.
-        let is_good = |n: &[f32; NUMBERS]| {
-            n.iter().all(|x| x.is_finite()) && n[3..7].iter().all(|x| *x >= 0.0)
-        };
+        let is_good =
+            |n: &[f32; NUMBERS]| n.iter().all(|x| x.is_finite()) && n[3..7].iter().all(|x| *x >= 0.0);
         let is_small = |link: &Link| !link.is_leaf() || link.range().len() <= leaf_size;
-        if !is_whole || !links.iter().all(is_small) || numbers.len() != links.len() || !numbers.iter().all(is_good) {
+        if !is_whole
+            || !links.iter().all(is_small)
+            || numbers.len() != links.len()
+            || !numbers.iter().all(is_good)
+        {
             return Err(inconsistent());
         }
         let spans = checked_spans(&links, roots, items.len()).ok_or_else(inconsistent)?;
         let balls = numbers.iter().map(|n| [n[0], n[1], n[2], n[3]]).collect();
         let series = numbers
             .iter()
-            .map(|n| Series {
-                area: n[4],
-                spread: [n[5], n[6]],
-                factors: std::array::from_fn(|k| n[7 + k]),
-            })
+            .map(|n| Series { area: n[4], spread: [n[5], n[6]], factors: std::array::from_fn(|k| n[7 + k]) })
             .collect();
         let bounds = Aabb::around((0..sources.len()).flat_map(|i| sources.corners(i)));
         let frame = Frame::around(&bounds);

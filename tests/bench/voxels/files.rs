@@ -23,10 +23,8 @@ pub fn write(shape: &Shape, folder: &str, resolution: usize) {
         let bytes = bricks.to_voxels().and_then(|v| v.to_bytes()).expect("the voxels fit");
         write_file(folder.join(format!("{name}.u8")), bytes).expect(in_file);
         let [origin, spacing] = [lattice.origin, lattice.spacing].map(|v| v.to_array());
-        let text = format!(
-            "{{\"counts\": {:?}, \"origin\": {origin:?}, \"spacing\": {spacing:?}}}",
-            lattice.counts
-        );
+        let text =
+            format!("{{\"counts\": {:?}, \"origin\": {origin:?}, \"spacing\": {spacing:?}}}", lattice.counts);
         write_file(folder.join(format!("{name}.json")), text).expect(in_file);
     }
 }

@@ -28,7 +28,9 @@ fn main() {
     };
     match words.first().map(String::as_str) {
         Some("tables") => tables::print(),
-        Some("sparse") => words[1..].iter().for_each(|model| sparse::print(model, resolution.unwrap_or(1024))),
+        Some("sparse") => {
+            words[1..].iter().for_each(|model| sparse::print(model, resolution.unwrap_or(1024)))
+        }
         Some("saves") => saves::print(&words[1..]),
         Some("files") => files::write(&read(&words[1]), &words[2], resolution.unwrap_or(300)),
         _ => panic!("a job is needed: tables, sparse, saves or files"),

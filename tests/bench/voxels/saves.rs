@@ -1,14 +1,16 @@
 //! Fields built beside the same fields loaded.
 use crate::{median, milliseconds, read, with_commas};
-use fast_winding::data::Silent;
 use fast_winding::Lattice;
+use fast_winding::data::Silent;
 use fast_winding::solid::{VoxelConfig, voxelize};
 use fast_winding::winding::WindingField;
 
 pub fn print(models: &[String]) {
     println!("{} threads; milliseconds.\n", rayon::current_num_threads());
-    println!("| model | elements | build | save | load | loaded / built | MB saved | of it shape | voxels at 64³ | scattered points ready |");
-    println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
+    println!(
+        "| model | elements | build | save | load | loaded / built | MB saved | of it the shape | voxels at 64³ | scattered points ready |"
+    );
+    println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
     for model in models {
         let shape = read(model);
         let (build, field) = median(|| WindingField::new(shape.clone(), Default::default()));
@@ -24,14 +26,21 @@ pub fn print(models: &[String]) {
         };
         let (query, voxels) = median(|| of(&field));
         assert!(of(&loaded) == voxels, "a loaded field answers otherwise");
-        let (ready, _) = median(|| WindingField::load(&bytes).expect("it was saved").prepare_points());
+        // What inside tests of scattered points need, built, and built from what was saved once it was.
+        let prepared =
+            |bytes: &[u8]| median(|| WindingField::load(bytes).expect("it was saved").prepare_points()).0;
+        let ready = prepared(&bytes) - load;
+        field.prepare_points();
+        let mut with_points = Vec::new();
+        field.save(&mut with_points).expect("a vector takes any bytes");
+        let loaded_ready = prepared(&with_points) - load;
         let of_shape = match &shape {
             fast_winding::data::Shape::Soup(soup) => 24 * soup.positions().len() + 12 * soup.len(),
             fast_winding::data::Shape::Cloud(cloud) => 56 * cloud.len(),
         };
         let name = model.rsplit('/').next().unwrap_or(model);
         println!(
-            "| {name} | {} | {} | {} | {} | {:.2} | {:.1} | {:.1} | {} | {} |",
+            "| {name} | {} | {} | {} | {} | {:.2} | {:.1} | {:.1} | {} | {} | {} | {:.1} |",
             with_commas(shape.len()),
             milliseconds(build),
             milliseconds(save),
@@ -40,7 +49,9 @@ pub fn print(models: &[String]) {
             bytes.len() as f64 / 1e6,
             of_shape as f64 / 1e6,
             milliseconds(query),
-            milliseconds((ready - load).max(0.0))
+            milliseconds(ready.max(0.0)),
+            milliseconds(loaded_ready.max(0.0)),
+            (with_points.len() - bytes.len()) as f64 / 1e6
         );
     }
 }

@@ -9,15 +9,20 @@ pub fn print(model: &str, resolution: usize) {
     let shape = read(model);
     let (build, field) = timed(|| WindingField::new(shape.clone(), Default::default()));
     let lattice = Lattice::with_resolution(field.bounds(), resolution).expect("the model has a size");
-    println!("{model}: {} elements, {:?} voxels, built in {build:.2} s\n", with_commas(shape.len()), lattice.counts);
+    println!(
+        "{model}: {} elements, {:?} voxels, built in {build:.2} s\n",
+        with_commas(shape.len()),
+        lattice.counts
+    );
     println!("| way | seconds | MB held | MB more at the peak | mixed bricks | inside |");
     println!("|---|--:|--:|--:|--:|--:|");
     let megabytes = |bytes: usize| format!("{:.1}", bytes as f64 / 1e6);
     let peak = |before: usize| megabytes(memory(false)[1].saturating_sub(before));
     let mut counts = Vec::new();
-    for (name, method) in
-        [("bricks along the level set", VoxelMethod::Continuation), ("bricks of all samples", VoxelMethod::Lattice)]
-    {
+    for (name, method) in [
+        ("bricks along the level set", VoxelMethod::Continuation),
+        ("bricks of all samples", VoxelMethod::Lattice),
+    ] {
         if method == VoxelMethod::Lattice && field.report().method.contains("fast") && resolution > 256 {
             continue; // points take microseconds each
         }
@@ -47,11 +52,14 @@ pub fn print(model: &str, resolution: usize) {
     }
     if counts.len() == 2 {
         let [before, _] = memory(true);
-        let (time, voxels) = timed(|| {
-            voxelize(&field, &lattice, &VoxelConfig::default(), &Silent).expect("the voxels fit")
-        });
+        let (time, voxels) =
+            timed(|| voxelize(&field, &lattice, &VoxelConfig::default(), &Silent).expect("the voxels fit"));
         let held = megabytes(voxels.bits().len());
-        println!("| a bit for each | {time:.2} | {held} | {} | | {} |", peak(before), with_commas(voxels.count()));
+        println!(
+            "| a bit for each | {time:.2} | {held} | {} | | {} |",
+            peak(before),
+            with_commas(voxels.count())
+        );
     }
     println!();
 }

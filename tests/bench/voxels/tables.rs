@@ -4,9 +4,7 @@
 use crate::{median, milliseconds, models, read_soup, with_commas};
 use fast_winding::data::{OrientedCloud, Silent};
 use fast_winding::math::{Vec3, area_vector};
-use fast_winding::solid::{
-    VoxelConfig, VoxelMethod, Voxels, difference, voxelize, voxelize_by_rays,
-};
+use fast_winding::solid::{VoxelConfig, VoxelMethod, Voxels, difference, voxelize, voxelize_by_rays};
 use fast_winding::surface::{SurfaceConfig, extract};
 use fast_winding::winding::{Order, StabCount, Stabbing, WindingField};
 use fast_winding::{Lattice, TriangleSoup};
@@ -47,28 +45,32 @@ pub fn print() {
         [32, 64, 128].into_iter().zip(theirs).map(|(n, t)| row(name, soup, n, t)).collect::<Vec<_>>()
     };
     let small = of_bunny([Some(7370), Some(59_277), Some(471_976)], "Bunny, remeshed", &thousand);
-    triangles(&[
-        small,
-        vec![
-            row("Teapot", &teapot, 32, Some(17_660)),
-            row("Truck", &truck, 32, None),
-            row("Bunny, remeshed (theirs: Max, 20,196)", &ten_thousand, 32, Some(143_033)),
-            row("Dragon (theirs: Armadillo, 345,944)", &dragon, 32, Some(2_698_200)),
-        ],
-        of_bunny([None; 3], "Bunny", &bunny),
-        of_bunny([None; 3], "Knot", &knot),
-    ]
-    .concat());
-    points(&[
-        of_bunny([Some(444), Some(3462), Some(27_852)], "Bunny, remeshed", &thousand),
-        vec![
-            row("Bunny", &bunny, 32, Some(30_016)),
-            row("Teapot", &teapot, 32, Some(1115)),
-            row("Bunny, remeshed (theirs: Max, 10,227 points)", &ten_thousand, 32, Some(8777)),
-            row("Dragon (theirs: Armadillo, 172,974 points)", &dragon, 32, Some(150_593)),
-        ],
-    ]
-    .concat());
+    triangles(
+        &[
+            small,
+            vec![
+                row("Teapot", &teapot, 32, Some(17_660)),
+                row("Truck", &truck, 32, None),
+                row("Bunny, remeshed (theirs: Max, 20,196)", &ten_thousand, 32, Some(143_033)),
+                row("Dragon (theirs: Armadillo, 345,944)", &dragon, 32, Some(2_698_200)),
+            ],
+            of_bunny([None; 3], "Bunny", &bunny),
+            of_bunny([None; 3], "Knot", &knot),
+        ]
+        .concat(),
+    );
+    points(
+        &[
+            of_bunny([Some(444), Some(3462), Some(27_852)], "Bunny, remeshed", &thousand),
+            vec![
+                row("Bunny", &bunny, 32, Some(30_016)),
+                row("Teapot", &teapot, 32, Some(1115)),
+                row("Bunny, remeshed (theirs: Max, 10,227 points)", &ten_thousand, 32, Some(8777)),
+                row("Dragon (theirs: Armadillo, 172,974 points)", &dragon, 32, Some(150_593)),
+            ],
+        ]
+        .concat(),
+    );
     zero(&of_bunny([None; 3], "Bunny", &bunny));
     zero(&of_bunny([None; 3], "Bunny, remeshed and closed", &thousand));
 }
@@ -85,7 +87,11 @@ impl Row {
     }
 
     fn exact(&self) -> Voxels {
-        voxels(&WindingField::new(self.soup.clone(), Default::default()), &self.lattice(), VoxelMethod::Lattice)
+        voxels(
+            &WindingField::new(self.soup.clone(), Default::default()),
+            &self.lattice(),
+            VoxelMethod::Lattice,
+        )
     }
 
     fn theirs(&self) -> String {
@@ -105,7 +111,9 @@ fn wrong(exact: &Voxels, found: &Voxels) -> String {
 }
 
 fn rays(rows: &[Row]) {
-    println!("### Ray casting\n\nTheirs casts a ray for each voxel. Wrong: inside that was missed −, outside that was taken +.\n");
+    println!(
+        "### Ray casting\n\nTheirs casts a ray for each voxel. Wrong: inside that was missed −, outside that was taken +.\n"
+    );
     println!("| mesh | triangles | n | theirs | rays | wrong | vote of 3 | wrong | exact | inside |");
     println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
     for row in rows {
@@ -137,7 +145,9 @@ fn rays(rows: &[Row]) {
 }
 
 fn triangles(rows: &[Row]) {
-    println!("\n### Winding numbers of triangles\n\nTheirs sums all solid angles. Fast: the tree of Barill et al. 2018, order 2, β = 2.\n");
+    println!(
+        "\n### Winding numbers of triangles\n\nTheirs sums all solid angles. Fast: the tree of Barill et al. 2018, order 2, β = 2.\n"
+    );
     println!("| mesh | triangles | n | theirs | exact: build | query | fast: build | query | wrong |");
     println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|");
     for row in rows {
@@ -167,8 +177,12 @@ fn triangles(rows: &[Row]) {
 }
 
 fn points(rows: &[Row]) {
-    println!("\n### Winding numbers of points\n\nThe vertices, as theirs; wrong beside the exact field of the triangles. Theirs gives all points one area.\n");
-    println!("| mesh | points | n | theirs | build | query | wrong | all areas equal: wrong | barycentres: wrong |");
+    println!(
+        "\n### Winding numbers of points\n\nThe vertices, as theirs; wrong beside the exact field of the triangles. Theirs gives all points one area.\n"
+    );
+    println!(
+        "| mesh | points | n | theirs | build | query | wrong | all areas equal: wrong | barycentres: wrong |"
+    );
     println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|");
     for row in rows {
         let (lattice, exact) = (row.lattice(), row.exact());
@@ -239,7 +253,8 @@ fn icosahedron() -> TriangleSoup {
         })
         .collect();
     let mut triangles = Vec::new();
-    for (a, b, c) in (0..12).flat_map(|a| (a + 1..12).flat_map(move |b| (b + 1..12).map(move |c| (a, b, c)))) {
+    for (a, b, c) in (0..12).flat_map(|a| (a + 1..12).flat_map(move |b| (b + 1..12).map(move |c| (a, b, c))))
+    {
         let [p, q, r] = [a, b, c].map(|k: usize| corners[k]);
         let are_near = |p: Vec3, q: Vec3| (p.distance(q) - 2.0).abs() < 1e-9;
         if are_near(p, q) && are_near(q, r) && are_near(r, p) {
