@@ -106,7 +106,7 @@ fn voxel_surface_is_closed_without_duplicates() {
     let field = field(torus(1.0, 0.4, 60, 24));
     let lattice = Lattice::with_resolution(field.bounds(), 20).unwrap();
     let voxels = voxelize(&field, &lattice, &VoxelConfig::default(), &Silent).unwrap();
-    let mesh = voxels.surface();
+    let mesh = voxels.surface().unwrap();
     let places: HashSet<[u64; 3]> = mesh.positions.iter().map(|p| p.to_array().map(f64::to_bits)).collect();
     assert_eq!(places.len(), mesh.positions.len());
     let faces: HashSet<Vec<u32>> = (mesh.triangles.iter())

@@ -1,5 +1,7 @@
 import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
 export type * from './print-api.js';
+import type { VoxelFunctions, VoxelMethodOptions, VoxelShape } from './voxels-api.js';
+export type * from './voxels-api.js';
 
 /** Options of `init`. The same options give the same engine; other options another one. */
 export interface InitOptions {
@@ -92,7 +94,7 @@ export interface Layer {
 }
 
 /** The lattice fills the shape's bounds, samples at cell centres. One of resolution, spacing, counts. */
-export interface VoxelOptions extends CallOptions {
+export interface VoxelOptions extends VoxelMethodOptions, CallOptions {
   /** Cells along the longest side; 64 unless said otherwise. */
   resolution?: number;
   /** Edge of a cubic cell in millimetres. */
@@ -101,8 +103,6 @@ export interface VoxelOptions extends CallOptions {
   counts?: [number, number, number];
   /** A voxel is inside when w at its centre is at least this: 0.5 unless said otherwise. */
   threshold?: number;
-  /** `lattice` asks every cell; `continuation` follows the surface from the cells that hold points. */
-  method?: 'lattice' | 'continuation';
   /** `bytes`: 0 or 1 for each voxel. `bits`: 8 voxels a byte, lowest bit first. */
   format?: 'bytes' | 'bits';
   /** Also return the exposed faces as a mesh. */
@@ -208,9 +208,9 @@ export type SoupFormat = 'stl' | 'obj' | 'ply' | 'off';
 export type CloudFormat = 'ply' | 'xyz';
 
 /** What a soup and a cloud have in common: a winding field, and questions to it. */
-export interface Shape {
+export interface Shape extends VoxelShape {
   readonly kind: 'soup' | 'cloud';
-  /** The file's format, or `arrays`. */
+  /** The file's format, `arrays`, or `field` if it was saved. */
   readonly format: string;
   readonly warnings: Warning[];
   readonly bounds: Bounds;
@@ -304,10 +304,12 @@ export interface CloudArrays {
 }
 
 /** An engine: it opens files and arrays. */
-export interface FastWinding {
+export interface FastWinding extends VoxelFunctions {
   readonly info: Info;
-  /** Reads a file of any known format: STL, OBJ, PLY, XYZ, OFF, 3MF. */
+  /** Reads a file of any known format: STL, OBJ, PLY, XYZ, OFF, 3MF, and what `save` gives. */
   open(bytes: Bytes, options?: ReadOptions & CallOptions): Promise<Soup | Cloud>;
+  /** Reads what `save` gives, and nothing else. */
+  load(bytes: Bytes, options?: { transfer?: boolean } & CallOptions): Promise<Soup | Cloud>;
   readonly Soup: {
     /** Reads a file that must hold triangles. */
     parse(bytes: Bytes, options?: ReadOptions & CallOptions): Promise<Soup>;

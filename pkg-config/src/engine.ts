@@ -15,10 +15,19 @@ const MAKERS = { parse: 'parse', soup: 'soup', cloud: 'cloud' } as const;
 const WITHOUT_FIELD = ['free', 'export', 'geometry'];
 
 /** What is asked of the engine, not of a shape, and whether it reports progress. */
-const FUNCTIONS = { exportLayer: false, exportLayers: false, toolpaths: true, gcode: false, printSettings: false } as const;
+const FUNCTIONS = {
+  voxelSurface: false, compareVoxels: false, exportVoxels: false,
+  exportLayer: false, exportLayers: false, toolpaths: true, gcode: false, printSettings: false,
+} as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', ...Object.keys(FUNCTIONS)];
+
+/** Ways of making voxels that take it. */
+const VOXELS_BY_MORE = ['continuation', 'rays', 'fast', 'cloud'];
+
+/** Whether bytes begin as a saved field does. */
+const isSaved = (bytes: unknown) => bytes instanceof Uint8Array && bytes[0] === 0x89 && bytes[1] === 0x46 && bytes[2] === 0x57;
 
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
@@ -35,6 +44,11 @@ export class Engine {
 
   /** Whether a call estimates normals or areas, or makes surfaces or layers, which takes the part of the WebAssembly that comes later. */
   needsMore({ method, handle, args }: Request): boolean {
+    if (method === 'parse' && (args[1] === 'field' || isSaved(args[0]))) return true;
+    if (method === 'voxelize') {
+      const { method: how = '', surface } = (args[0] ?? {}) as { method?: string; surface?: boolean };
+      if (surface || VOXELS_BY_MORE.includes(how)) return true;
+    }
     if (method === 'parse' || method === 'cloud') return (args.at(-1) as { orient?: string } | undefined)?.orient !== undefined;
     if (BY_MORE.includes(method)) return true;
     return !WITHOUT_FIELD.includes(method) && (this.handles.get(handle)?.isRaw() ?? false);

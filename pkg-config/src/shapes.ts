@@ -101,6 +101,14 @@ class BaseShape {
     return this.ask('voxelize', [forEngine(options)], options);
   }
 
+  voxelBricks(options?: object): unknown {
+    return this.ask('voxelBricks', [forEngine(options)], options);
+  }
+
+  save(options?: CallOptions): unknown {
+    return this.ask('save', [], options);
+  }
+
   slice(options?: object): unknown {
     return this.ask('slice', [forEngine(options)], options);
   }
@@ -181,6 +189,7 @@ export function facade(caller: Caller): object {
   return {
     info: caller.info,
     open: parse(undefined),
+    load: parse('field'),
     Soup: {
       parse: parse('soup'),
       from: ({ positions, indices }: SoupArrays, options?: { transfer?: boolean }) =>
@@ -193,6 +202,9 @@ export function facade(caller: Caller): object {
         return make(caller, 'cloud', [...arrays, forEngine(options)], options);
       },
     },
+    voxelSurface: (voxels: object) => ofEngine('voxelSurface', [voxels]),
+    compareVoxels: (first: object, second: object) => ofEngine('compareVoxels', [first, second]),
+    exportVoxels: (voxels: object, format: string, options?: object) => ofEngine('exportVoxels', [voxels, format, forEngine(options)]),
     exportLayer: (layer: Layer, format: string) => ofEngine('exportLayer', [layer, format]),
     exportLayers: (layers: Layer[], format: string, mesh?: object) => ofEngine('exportLayers', [layers, format, mesh]),
     toolpaths: (layers: Layer[], settings?: CallOptions) => ofEngine('toolpaths', [layers, forEngine(settings)], settings),

@@ -16,9 +16,11 @@ export interface Cloud extends Synchronous<api.Cloud> {}
 export type Shape = Soup | Cloud;
 
 /** An engine that answers at once, on the thread that asks. */
-export interface FastWinding extends Omit<Synchronous<api.FastWinding>, 'open' | 'Soup' | 'Cloud'> {
-  /** Reads a file of any known format: STL, OBJ, PLY, XYZ, OFF, 3MF. */
+export interface FastWinding extends Omit<Synchronous<api.FastWinding>, 'open' | 'load' | 'Soup' | 'Cloud'> {
+  /** Reads a file of any known format: STL, OBJ, PLY, XYZ, OFF, 3MF, and what `save` gives. */
   open(bytes: api.Bytes, options?: api.ReadOptions & api.CallOptions): Soup | Cloud;
+  /** Reads what `save` gives, and nothing else. */
+  load(bytes: api.Bytes, options?: { transfer?: boolean } & api.CallOptions): Soup | Cloud;
   readonly Soup: {
     /** Reads a file that must hold triangles. */
     parse(bytes: api.Bytes, options?: api.ReadOptions & api.CallOptions): Soup;

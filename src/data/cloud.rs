@@ -132,6 +132,30 @@ impl OrientedCloud {
         Ok(OrientedCloud { points, normals, areas })
     }
 
+    /// As [`OrientedCloud::new`] of normals that have length 1 already, to rounding: they keep their bits.
+    ///
+    /// # Errors
+    /// As there, or if and only if a normal is not of length 1.
+    pub(crate) fn of_unit_normals(
+        points: Vec<Vec3>,
+        normals: Vec<Vec3>,
+        areas: Vec<f64>,
+    ) -> Result<OrientedCloud, CloudError> {
+        check_length("normals", normals.len(), points.len())?;
+        check_length("areas", areas.len(), points.len())?;
+        if let Some(point) = points.iter().position(|p| !p.is_finite()) {
+            return Err(CloudError::NonFinitePoint { point });
+        }
+        let is_unit = |n: &Vec3| (n.length_squared() - 1.0).abs() < 1e-9;
+        if let Some(point) = normals.iter().position(|n| !is_unit(n)) {
+            return Err(CloudError::BadNormal { point });
+        }
+        if let Some(point) = areas.iter().position(|a| !(a.is_finite() && *a >= 0.0)) {
+            return Err(CloudError::BadArea { point, area: areas[point] });
+        }
+        Ok(OrientedCloud { points, normals, areas })
+    }
+
     /// Number of points.
     #[inline]
     pub fn len(&self) -> usize {

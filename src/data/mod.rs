@@ -1,5 +1,6 @@
-//! What goes in and what comes out: soups, clouds, lattices, layers, warnings. Plain data, validated once.
+//! What goes in and what comes out: soups, clouds, lattices, voxels, layers, warnings. Plain data, validated once.
 mod blocks;
+mod bricks;
 mod cloud;
 mod lattice;
 mod layers;
@@ -7,11 +8,15 @@ mod mesh;
 mod monitor;
 mod pairs;
 mod parallel;
+mod saved;
 mod soup;
 mod soup_cloud;
+mod voxels;
 mod warning;
 
 pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit, zeroed};
+pub use bricks::{BRICK_SIDE, Brick, BrickBits, VoxelBricks};
+pub(crate) use bricks::{Directory, INSIDE, OUTSIDE, bit_of, mask_of_brick};
 pub use cloud::{CloudError, OrientedCloud, PointCloud};
 pub use lattice::{Grid, Lattice, LatticeError};
 pub use layers::{Layer, Polygon, Ring, sides, signed_area};
@@ -19,7 +24,10 @@ pub use mesh::SurfaceMesh;
 pub use monitor::{Cancelled, Monitor, Silent};
 pub(crate) use pairs::{ascending, sorted_pairs};
 pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each, sort_keyed, threads};
+pub use saved::SavedError;
+pub(crate) use saved::{Loader, Saver};
 pub use soup::{SoupError, TriangleSoup};
+pub use voxels::{VoxelDataError, VoxelRows, Voxels};
 pub use warning::{Warning, WarningKind};
 
 use crate::math::Aabb;

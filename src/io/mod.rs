@@ -1,5 +1,5 @@
 //! Bytes to geometry and back: STL, OBJ, PLY, XYZ, OFF and 3MF in; STL, OBJ, PLY, OFF and XYZ out, and
-//! layers as SVG, DXF, JSON and 3MF.
+//! layers as SVG, DXF, JSON and 3MF, voxels as VOX and NRRD.
 //!
 //! Files come as they are found. What is damaged in part gives what is readable, with [`Warning`]s; what is
 //! damaged in whole gives a [`ReadError`]. No input makes a reader panic, and none makes it take memory beyond
@@ -21,8 +21,9 @@ mod xyz;
 pub use error::{Location, ReadError};
 pub use unit::{Unit, UnknownUnit};
 pub use write::{
-    CloudFormat, MeshFormat, MeshResolution, SliceStackError, write_cloud, write_layer_svg, write_layers_3mf,
-    write_layers_dxf, write_layers_json, write_layers_svg, write_soup,
+    CloudFormat, MeshFormat, MeshResolution, NrrdEncoding, SliceStackError, VoxContent, VoxError,
+    write_cloud, write_layer_svg, write_layers_3mf, write_layers_dxf, write_layers_json, write_layers_svg,
+    write_nrrd, write_soup, write_vox,
 };
 
 use crate::data::{PointCloud, TriangleSoup, Warning};

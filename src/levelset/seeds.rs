@@ -32,24 +32,28 @@ pub fn cells_of_points(points: &[Vec3], origin: Vec3, spacing: Vec3) -> Vec<Cell
 /// around each.
 pub fn cells_of_shape(shape: &Shape, origin: Vec3, spacing: Vec3) -> Vec<Cell> {
     let mut cells = Vec::new();
-    let mut add = |cell: Cell| {
+    for_each_cell_of_shape(shape, origin, spacing, &mut |cell| {
         if cells.last() != Some(&cell) {
             cells.push(cell);
         }
-    };
+    });
+    sorted(cells)
+}
+
+/// Calls `found` with the cells of [`cells_of_shape`] as they come, many more than once.
+pub fn for_each_cell_of_shape(shape: &Shape, origin: Vec3, spacing: Vec3, found: &mut dyn FnMut(Cell)) {
     match shape {
         Shape::Soup(soup) => {
-            (0..soup.len()).for_each(|t| cells_of_triangle(soup.corners(t), origin, spacing, &mut add));
+            (0..soup.len()).for_each(|t| cells_of_triangle(soup.corners(t), origin, spacing, &mut *found));
         }
         Shape::Cloud(cloud) => {
             for &p in cloud.points() {
                 let [x, y, z] = cells_of_point(p, origin, spacing);
                 let around = |k: i32, axis: i32| k / 3i32.pow(axis as u32) % 3 - 1;
-                (0..27).for_each(|k| add([x + around(k, 0), y + around(k, 1), z + around(k, 2)]));
+                (0..27).for_each(|k| found([x + around(k, 0), y + around(k, 1), z + around(k, 2)]));
             }
         }
     }
-    sorted(cells)
 }
 
 /// Cells in a fixed order, each once.

@@ -1,20 +1,34 @@
-use super::voxel_surface;
+use super::continuation::along_the_level_set;
 use crate::data::{
-    Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, SurfaceMesh, fill_in_blocks, zeroed,
+    Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, Shape, TriangleSoup, VoxelBricks, VoxelDataError,
+    Voxels,
 };
-use crate::levelset::cells_of_shape;
-use crate::winding::{FieldError, Scratch, WindingField};
+use crate::winding::{FieldConfig, FieldError, Order, Stabbing, WindingField, stab_lattice};
 
-/// Which samples are asked.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// How it is found out what is inside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum VoxelMethod {
-    /// Every one.
+    /// Every sample is asked: proven for soups, and decided by bounds and at last by the direct sum for clouds.
     #[default]
     Lattice,
     /// Those that hold geometry and, from there, all along the level set; the rest is filled in
     /// (Barill et al. 2018, implementation details). Much faster at high resolution; parts of the level set that come
     /// near no triangle or point are missed.
     Continuation,
+    /// By crossings of rays with the triangles of a soup, without a field.
+    Rays(Stabbing),
+    /// w as the evaluator of Barill et al. 2018 approximates it, with terms up to an order and the opening distance β.
+    Fast { order: Order, beta: f64 },
+    /// w of points in the place of triangles, as Pimentel, Scrivener & To 2022 do it; that of a cloud as it is.
+    Points(PointsOf),
+}
+
+/// Which points stand for the triangles of a soup, with the areas and normals of its triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PointsOf {
+    #[default]
+    Vertices,
+    Barycentres,
 }
 
 /// How a shape is turned into voxels.
@@ -40,8 +54,14 @@ pub enum VoxelError {
     Cancelled(#[from] Cancelled),
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
+    #[error(transparent)]
+    Data(#[from] VoxelDataError),
     #[error("a threshold of {0} is not possible: it must be a finite number")]
     BadThreshold(f64),
+    #[error("an opening distance of {0} is not possible: it must be a finite number above 0")]
+    BadBeta(f64),
+    #[error("a cloud of {points} points has no triangles that rays could cross: only soups have")]
+    NoTriangles { points: usize },
 }
 
 impl From<FieldError> for VoxelError {
@@ -54,168 +74,103 @@ impl From<FieldError> for VoxelError {
     }
 }
 
-/// Cells of a lattice, each inside or outside; one bit for each.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Voxels {
-    lattice: Lattice,
-    bits: Vec<u8>,
-}
-
-impl Voxels {
-    pub fn lattice(&self) -> &Lattice {
-        &self.lattice
-    }
-
-    /// Whether voxel (i, j, k) is inside.
-    pub fn get(&self, sample: [usize; 3]) -> bool {
-        self.at(self.lattice.index(sample))
-    }
-
-    fn at(&self, index: usize) -> bool {
-        self.bits[index / 8] >> (index % 8) & 1 == 1
-    }
-
-    /// Eight voxels a byte, lowest bit first, x fastest, rows one after the other without padding.
-    pub fn bits(&self) -> &[u8] {
-        &self.bits
-    }
-
-    /// One byte for each voxel, 0 or 1, x fastest.
-    ///
-    /// # Errors
-    /// If and only if the bytes do not fit in memory.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, OutOfMemory> {
-        let mut bytes = zeroed(self.lattice.len())?;
-        bytes.iter_mut().enumerate().for_each(|(index, byte)| *byte = u8::from(self.at(index)));
-        Ok(bytes)
-    }
-
-    /// Number of voxels inside.
-    pub fn count(&self) -> usize {
-        self.bits.iter().map(|byte| byte.count_ones() as usize).sum()
-    }
-
-    /// Volume of the voxels inside, in cubic millimetres.
-    pub fn volume(&self) -> f64 {
-        self.count() as f64 * self.lattice.cell_volume()
-    }
-
-    /// The faces between inside and outside as a mesh: each vertex once, two triangles for each face, none inside.
-    pub fn surface(&self) -> SurfaceMesh {
-        voxel_surface::exposed_faces(self)
+impl VoxelConfig {
+    fn check(&self) -> Result<(), VoxelError> {
+        if !self.threshold.is_finite() {
+            return Err(VoxelError::BadThreshold(self.threshold));
+        }
+        match self.method {
+            VoxelMethod::Fast { beta, .. } if !(beta.is_finite() && beta > 0.0) => {
+                Err(VoxelError::BadBeta(beta))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
 /// Which cells of a lattice are inside: w ≥ threshold at the cell's centre.
 ///
 /// # Errors
-/// If and only if the threshold is not finite, the monitor cancels, or the voxels do not fit in memory.
+/// If and only if the threshold or β is none that can be, rays are asked for of a cloud, the monitor cancels, or the voxels do not
+/// fit in memory.
 pub fn voxelize(
     field: &WindingField,
     lattice: &Lattice,
     config: &VoxelConfig,
     monitor: &dyn Monitor,
 ) -> Result<Voxels, VoxelError> {
-    if !config.threshold.is_finite() {
-        return Err(VoxelError::BadThreshold(config.threshold));
-    }
-    let bits = match config.method {
-        VoxelMethod::Lattice => {
-            let named = |fraction: f64, _: &str| monitor.report(fraction, "voxels").is_ok();
-            field.classify_lattice(lattice, config.threshold, &named)?
+    config.check()?;
+    let named = |fraction: f64, _: &str| monitor.report(fraction, "voxels").is_ok();
+    let threshold = config.threshold;
+    let bits = match (config.method, field.shape()) {
+        (VoxelMethod::Continuation, _) => {
+            return Ok(along_the_level_set(field, lattice, threshold, monitor)?.to_voxels()?);
         }
-        VoxelMethod::Continuation => along_the_level_set(field, lattice, config.threshold, monitor)?,
+        (VoxelMethod::Rays(stabbing), Shape::Soup(soup)) => {
+            return voxelize_by_rays(soup, lattice, stabbing, threshold, monitor);
+        }
+        (VoxelMethod::Rays(_), Shape::Cloud(cloud)) => {
+            return Err(VoxelError::NoTriangles { points: cloud.len() });
+        }
+        (VoxelMethod::Fast { order, beta }, _) => {
+            field.classify_lattice_fast(lattice, (order, beta), threshold, &named)?
+        }
+        (VoxelMethod::Points(points), Shape::Soup(soup)) => {
+            field_of_points(soup, points).classify_lattice(lattice, threshold, &named)?
+        }
+        (VoxelMethod::Lattice, _) | (VoxelMethod::Points(_), Shape::Cloud(_)) => {
+            field.classify_lattice(lattice, threshold, &named)?
+        }
     };
-    Ok(Voxels { lattice: *lattice, bits })
+    Ok(Voxels::from_bits(*lattice, bits)?)
 }
 
-#[derive(Clone, Copy, Default, PartialEq, Eq)]
-enum State {
-    #[default]
-    Unknown,
-    Outside,
-    Inside,
-}
-
-fn along_the_level_set(
-    field: &WindingField,
+/// [`voxelize`] by rays: no field is needed. The threshold matters to signed crossings alone.
+///
+/// # Errors
+/// If and only if the threshold is not finite, the monitor cancels, or the voxels do not fit in memory.
+pub fn voxelize_by_rays(
+    soup: &TriangleSoup,
     lattice: &Lattice,
+    stabbing: Stabbing,
     threshold: f64,
     monitor: &dyn Monitor,
-) -> Result<Vec<u8>, VoxelError> {
-    let mut states = zeroed::<State>(lattice.len())?;
-    field.prepare_single_points();
-    let corner = lattice.origin - 0.5 * lattice.spacing;
-    let mut wave: Vec<usize> = cells_of_shape(field.shape(), corner, lattice.spacing)
-        .into_iter()
-        .filter_map(|c| index_of(lattice, c))
-        .collect();
-    while !wave.is_empty() {
-        let mut found = zeroed::<bool>(wave.len())?;
-        let inside = |i: usize, scratch: &mut Scratch| {
-            field.exceeds(lattice.point(lattice.sample(wave[i])), threshold, scratch)
-        };
-        let undetermined = |_: f64, stage: &str| monitor.report(0.0, stage).is_ok();
-        fill_in_blocks(&mut found, inside, "voxels", &undetermined)?;
-        for (&index, inside) in wave.iter().zip(found) {
-            states[index] = if inside { State::Inside } else { State::Outside };
-        }
-        wave = beyond(lattice, &states, &wave);
-    }
-    fill_unknown(field, lattice, threshold, &mut states);
-    let mut bits = zeroed(lattice.len().div_ceil(8))?;
-    for (byte, eight) in bits.iter_mut().zip(states.chunks(8)) {
-        *byte = eight.iter().rev().fold(0, |bits, s| bits << 1 | u8::from(*s == State::Inside));
-    }
-    monitor.report(1.0, "voxels")?;
-    Ok(bits)
+) -> Result<Voxels, VoxelError> {
+    VoxelConfig { threshold, method: VoxelMethod::Rays(stabbing) }.check()?;
+    let named = |fraction: f64, _: &str| monitor.report(fraction, "voxels").is_ok();
+    Ok(Voxels::from_bits(*lattice, stab_lattice(soup, lattice, stabbing, threshold, &named)?)?)
 }
 
-fn index_of(lattice: &Lattice, cell: [i32; 3]) -> Option<usize> {
-    let sample = cell.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
-    sample.iter().zip(lattice.counts).all(|(s, n)| *s < n).then(|| lattice.index(sample))
+/// The field of points in the place of the triangles of a soup.
+fn field_of_points(soup: &TriangleSoup, points: PointsOf) -> WindingField {
+    let (cloud, _) = match points {
+        PointsOf::Vertices => soup.vertex_cloud(),
+        PointsOf::Barycentres => soup.barycentre_cloud(),
+    };
+    WindingField::new(cloud, FieldConfig::default())
 }
 
-/// The samples next to `index` along the three axes.
-fn neighbours(lattice: &Lattice, index: usize) -> impl Iterator<Item = usize> + use<> {
-    let (sample, counts) = (lattice.sample(index), lattice.counts);
-    let steps = [1, counts[0], counts[0] * counts[1]];
-    (0..6).filter_map(move |k| {
-        let (axis, up) = (k / 2, k % 2 == 1);
-        match up {
-            true => (sample[axis] + 1 < counts[axis]).then(|| index + steps[axis]),
-            false => (sample[axis] > 0).then(|| index - steps[axis]),
+/// The same voxels as [`voxelize`] makes, in bricks. By continuation, and of every sample of soups that are not loose, memory
+/// grows with the surface, and beside it some planes of the lattice are held; otherwise all voxels are made first.
+///
+/// # Errors
+/// As [`voxelize`].
+pub fn voxelize_bricks(
+    field: &WindingField,
+    lattice: &Lattice,
+    config: &VoxelConfig,
+    monitor: &dyn Monitor,
+) -> Result<VoxelBricks, VoxelError> {
+    config.check()?;
+    match config.method {
+        VoxelMethod::Continuation => along_the_level_set(field, lattice, config.threshold, monitor),
+        VoxelMethod::Lattice => {
+            let named = |fraction: f64, _: &str| monitor.report(fraction, "voxels").is_ok();
+            let mut bricks = VoxelBricks::outside(lattice)?;
+            let mut store = |first: usize, bits: &[u8]| bricks.set_planes(first, bits);
+            field.classify_planes(lattice, config.threshold, &named, &mut store)?;
+            Ok(bricks.finished())
         }
-    })
-}
-
-/// Unknown neighbours of both sides of every change of state that the last wave has found.
-fn beyond(lattice: &Lattice, states: &[State], wave: &[usize]) -> Vec<usize> {
-    let mut next = Vec::new();
-    for &index in wave {
-        for other in neighbours(lattice, index) {
-            if states[other] != State::Unknown && states[other] != states[index] {
-                next.extend(neighbours(lattice, index).chain(neighbours(lattice, other)));
-            }
-        }
-    }
-    next.retain(|&i| states[i] == State::Unknown);
-    next.sort_unstable();
-    next.dedup();
-    next
-}
-
-/// What is still unknown is cut off from the level set by known samples of one state: it has that state.
-fn fill_unknown(field: &WindingField, lattice: &Lattice, threshold: f64, states: &mut [State]) {
-    let steps = [1, lattice.counts[0], lattice.counts[0] * lattice.counts[1]];
-    for index in 0..states.len() {
-        if states[index] == State::Unknown {
-            let sample = lattice.sample(index);
-            let before = (0..3).find(|&axis| sample[axis] > 0).map(|axis| states[index - steps[axis]]);
-            states[index] = before.unwrap_or_else(|| {
-                let inside = field.exceeds(lattice.point(sample), threshold, &mut Scratch::default());
-                if inside { State::Inside } else { State::Outside }
-            });
-        }
+        _ => Ok(VoxelBricks::from_voxels(&voxelize(field, lattice, config, monitor)?)?),
     }
 }

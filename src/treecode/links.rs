@@ -1,5 +1,5 @@
 //! What hangs below each cluster of a hierarchy.
-use crate::bvh::{Bvh, Child};
+use crate::bvh::{Bvh, Child, WIDTH};
 use std::ops::Range;
 
 /// What a cluster holds: items of the tree's order, or clusters.
@@ -11,10 +11,23 @@ pub struct Link {
 }
 
 const LEAF: u32 = 1 << 31;
+/// A split ends a bit of a Morton code or, where all are equal, halves what is left.
+const DEEPEST: u8 = 100;
 
 impl Link {
     pub fn is_leaf(&self) -> bool {
         self.count & LEAF != 0
+    }
+
+    /// The two numbers that make it.
+    pub fn parts(&self) -> [u32; 2] {
+        [self.first, self.count]
+    }
+
+    /// Of [`Link::parts`]; none where they give no range, or one that is empty.
+    pub fn of_parts([first, count]: [u32; 2]) -> Option<Link> {
+        let len = count & !LEAF;
+        (len > 0 && first.checked_add(len).is_some()).then_some(Link { first, count })
     }
 
     pub fn range(&self) -> Range<usize> {
@@ -54,4 +67,71 @@ pub fn spans(links: &[Link]) -> Vec<Range<usize>> {
         spans[at] = if link.is_leaf() { range } else { spans[range.start].start..spans[range.end - 1].end };
     }
     spans
+}
+
+/// As [`spans`] of links that may be anything: none unless they are a tree as [`link`] makes it, with `roots` at its top, no
+/// deeper than one over Morton codes, of which each item is in one leaf.
+pub fn checked_spans(links: &[Link], roots: usize, items: usize) -> Option<Vec<Range<usize>>> {
+    // The children of clusters follow each other in the order of the clusters, after the roots.
+    let mut next = roots;
+    let mut depths = vec![0u8; links.len()];
+    let mut held = vec![false; items];
+    if (roots == 0) != links.is_empty() || roots > WIDTH {
+        return None;
+    }
+    for (at, link) in links.iter().enumerate() {
+        let range = link.range();
+        if link.is_leaf() {
+            let own = held.get_mut(range)?;
+            if own.contains(&true) {
+                return None;
+            }
+            own.fill(true);
+        } else {
+            if range.start != next || range.len() > WIDTH || depths[at] >= DEEPEST || next <= at {
+                return None;
+            }
+            next = range.end;
+            let depth = depths[at] + 1;
+            depths.get_mut(range)?.fill(depth);
+        }
+    }
+    if next != links.len() || held.contains(&false) {
+        return None;
+    }
+    let spans = spans(links);
+    let is_joined = |link: &Link| {
+        let children = &spans[link.range()];
+        children.windows(2).all(|pair| pair[0].end == pair[1].start)
+    };
+    links.iter().all(|link| link.is_leaf() || is_joined(link)).then_some(spans)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn links(parts: &[[u32; 2]]) -> Vec<Link> {
+        parts.iter().map(|p| Link::of_parts(*p).unwrap()).collect()
+    }
+
+    #[test]
+    fn only_trees_have_spans() {
+        // Two clusters at the top, the second with two leaves below.
+        let good = [[0, LEAF | 3], [2, 2], [3, LEAF | 2], [5, LEAF | 1]];
+        assert_eq!(checked_spans(&links(&good), 2, 6), Some(vec![0..3, 3..6, 3..5, 5..6]));
+        let bvh = Bvh::along_curve((0..5000u64).map(|i| i.wrapping_mul(0x9e37_79b9) % 4096).collect(), 3);
+        let (made, levels) = link(&bvh);
+        let found = checked_spans(&made, levels[0].len(), 5000).unwrap();
+        assert_eq!(found, spans(&made));
+        for (k, bad) in [[0, LEAF | 4], [1, 2], [2, LEAF | 2], [5, LEAF | 2]].into_iter().enumerate() {
+            let mut parts = good;
+            parts[k] = bad;
+            assert_eq!(checked_spans(&links(&parts), 2, 6), None, "{parts:?}");
+        }
+        assert_eq!(checked_spans(&links(&good), 2, 7), None);
+        assert_eq!(checked_spans(&links(&good), 1, 6), None);
+        assert_eq!(checked_spans(&[], 0, 0), Some(vec![]));
+        assert!(Link::of_parts([u32::MAX, 1]).is_none() && Link::of_parts([3, LEAF]).is_none());
+    }
 }

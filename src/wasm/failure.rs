@@ -1,12 +1,12 @@
 //! Errors as JavaScript sees them: `{ code, message, details }`, of which the client makes a `WindingError`.
-use crate::data::{Cancelled, CloudError, LatticeError, OutOfMemory, SoupError};
+use crate::data::{Cancelled, CloudError, LatticeError, OutOfMemory, SavedError, SoupError, VoxelDataError};
 use crate::estimate::EstimateError;
 use crate::io::{Location, ReadError};
 use crate::levelset::TraceError;
 use crate::slice::SliceError;
 use crate::solid::VoxelError;
 use crate::surface::SurfaceError;
-use crate::winding::FieldError;
+use crate::winding::{FieldError, LoadError};
 use js_sys::{Object, Reflect};
 use wasm_bindgen::JsValue;
 
@@ -87,7 +87,31 @@ impl From<VoxelError> for Failure {
             VoxelError::Lattice(lattice) => lattice.into(),
             VoxelError::Cancelled(cancelled) => cancelled.into(),
             VoxelError::OutOfMemory(out_of_memory) => out_of_memory.into(),
-            VoxelError::BadThreshold(_) => Failure::invalid(&error),
+            VoxelError::Data(data) => data.into(),
+            VoxelError::BadThreshold(_) | VoxelError::BadBeta(_) | VoxelError::NoTriangles { .. } => {
+                Failure::invalid(&error)
+            }
+        }
+    }
+}
+
+impl From<VoxelDataError> for Failure {
+    fn from(error: VoxelDataError) -> Failure {
+        match error {
+            VoxelDataError::OutOfMemory(out_of_memory) => out_of_memory.into(),
+            _ => Failure::invalid(&error),
+        }
+    }
+}
+
+impl From<LoadError> for Failure {
+    fn from(error: LoadError) -> Failure {
+        match error {
+            LoadError::Foreign { .. } => Failure::new("UnknownFormat", &error),
+            LoadError::OtherVersion { version, known } => Failure::new("Unsupported", &error)
+                .with([("version", version.into()), ("known", known.into())]),
+            LoadError::Invalid(SavedError::OutOfMemory(out_of_memory)) => out_of_memory.into(),
+            _ => Failure::new("ParseError", &error).with([("format", "field".into())]),
         }
     }
 }

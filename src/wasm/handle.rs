@@ -6,12 +6,13 @@ use super::convert::{
 use super::failure::{Failure, object};
 use super::job::Job;
 use super::options::{self, CloudOptions, ReadOptions};
+use super::saving::{SAVED, is_saved_field};
 use crate::data::{OrientedCloud, PointCloud, Shape, TriangleSoup, Warning};
 use crate::estimate::{self, EstimateConfig};
 use crate::io::{self, Geometry};
 use crate::math::Aabb;
 use crate::orient::{OrientMethod, orient_watched};
-use crate::winding::{FieldConfig, WindingField};
+use crate::winding::{Accuracy, FieldConfig, WindingField};
 use js_sys::{Object, Reflect, Uint8Array, Uint32Array};
 use std::sync::Arc;
 use wasm_bindgen::prelude::*;
@@ -37,7 +38,7 @@ pub struct Handle {
 
 #[wasm_bindgen]
 impl Handle {
-    /// Reads a file; `kind` is `soup` or `cloud` where only that will do.
+    /// Reads a file, or a saved field; `kind` is `soup`, `cloud` or `field` where only that will do.
     ///
     /// # Errors
     /// If and only if the file gives no geometry, or not of that kind, or normals cannot be estimated as asked.
@@ -48,6 +49,9 @@ impl Handle {
         job: &Job,
     ) -> Result<Handle, JsValue> {
         let options: ReadOptions = options::from_js(options)?;
+        if is_saved_field(bytes) || kind.as_deref() == Some(SAVED) {
+            return Ok(Handle::load(bytes, kind)?);
+        }
         let imported = io::read_with(&bytes_from(bytes)?, &options.for_io()?).map_err(Failure::from)?;
         let (source, found) = match imported.geometry {
             Geometry::Soup(soup) => (Source::Soup(Arc::new(soup)), "soup"),
@@ -293,6 +297,33 @@ impl Handle {
             None => (config, WindingField::new(self.shape(job)?, config)),
         };
         Ok(&self.field.insert(field).1)
+    }
+
+    /// Of the shape whose field was saved.
+    pub(super) fn of_field(field: WindingField, kind: Option<String>) -> Result<Handle, Failure> {
+        let (source, found) = match field.shape() {
+            Shape::Soup(soup) => (Source::Soup(soup.clone()), "soup"),
+            Shape::Cloud(cloud) => {
+                let normals = Some(cloud.normals().to_vec());
+                let (given, _) =
+                    PointCloud::cleaned(cloud.points().to_vec(), normals, Some(cloud.areas().to_vec()))?;
+                (Source::Cloud { given, oriented: Some(cloud.clone()) }, "cloud")
+            }
+        };
+        if let Some(wanted) = kind.filter(|wanted| wanted != found && wanted != SAVED) {
+            return Err(Failure::invalid(format!(
+                "the file holds the field of a {found}: a {wanted} is needed"
+            )));
+        }
+        Ok(Handle { source, format: SAVED, warnings: vec![], field: Some((field.config(), field)) })
+    }
+
+    /// How the evaluator of Barill et al. 2018 has this shape's field.
+    pub(super) fn of_paper(&self) -> Accuracy {
+        match self.source {
+            Source::Soup(_) => Accuracy::OF_PAPER_FOR_SOUPS,
+            Source::Cloud { .. } => Accuracy::OF_PAPER_FOR_CLOUDS,
+        }
     }
 
     pub(super) fn soup(&self) -> Option<&TriangleSoup> {

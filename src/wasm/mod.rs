@@ -14,6 +14,8 @@ mod pieces;
 mod printing;
 mod queries;
 mod results;
+mod saving;
+mod voxels;
 
 pub use handle::Handle;
 pub use job::Job;

@@ -5,9 +5,9 @@ use crate::io::{self, CloudFormat, MeshFormat};
 use crate::math::{Aabb, Vec2};
 use crate::orient::{ConsistencyConfig, OrientMethod, StochasticConfig, Widths};
 use crate::slice::{AdaptiveHeights, LayerPlan, SampleAt, SliceConfig, SliceMode};
-use crate::solid::{VoxelConfig, VoxelMethod};
+use crate::solid::{PointsOf, VoxelConfig, VoxelMethod};
 use crate::surface::SurfaceConfig;
-use crate::winding::{Accuracy, FieldConfig, Order};
+use crate::winding::{Accuracy, FieldConfig, Order, StabCount, Stabbing};
 use serde::{Deserialize, de::DeserializeOwned};
 use wasm_bindgen::JsValue;
 
@@ -135,7 +135,33 @@ pub enum VoxelFormat {
 #[serde(rename_all = "lowercase")]
 enum VoxelMethodName {
     Lattice,
+    /// The same.
+    Exact,
     Continuation,
+    Rays,
+    Fast,
+    Cloud,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum StabCountName {
+    Parity,
+    Signed,
+}
+
+#[derive(Clone, Copy, Default, Deserialize)]
+struct RayOptions {
+    count: Option<StabCountName>,
+    #[serde(default)]
+    majority: bool,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum PointsOfName {
+    Vertices,
+    Barycentres,
 }
 
 /// Which voxels are wanted, and how.
@@ -146,6 +172,10 @@ pub struct VoxelOptions {
     counts: Option<[usize; 3]>,
     threshold: Option<f64>,
     method: Option<VoxelMethodName>,
+    rays: Option<RayOptions>,
+    order: Option<u8>,
+    beta: Option<f64>,
+    points: Option<PointsOfName>,
     #[serde(default)]
     pub format: VoxelFormat,
     #[serde(default)]
@@ -167,16 +197,35 @@ impl VoxelOptions {
         Ok(lattice?)
     }
 
-    pub fn config(&self) -> VoxelConfig {
-        let default = VoxelConfig::default();
-        let method = self.method.map(|method| match method {
-            VoxelMethodName::Lattice => VoxelMethod::Lattice,
-            VoxelMethodName::Continuation => VoxelMethod::Continuation,
-        });
-        VoxelConfig {
-            threshold: self.threshold.unwrap_or(default.threshold),
-            method: method.unwrap_or(default.method),
-        }
+    /// `of_paper` completes an order or a β that is not given.
+    pub fn config(&self, of_paper: Accuracy) -> Result<VoxelConfig, Failure> {
+        let method = match self.method {
+            None | Some(VoxelMethodName::Lattice | VoxelMethodName::Exact) => VoxelMethod::Lattice,
+            Some(VoxelMethodName::Continuation) => VoxelMethod::Continuation,
+            Some(VoxelMethodName::Rays) => {
+                let rays = self.rays.unwrap_or_default();
+                let count = match rays.count {
+                    None | Some(StabCountName::Parity) => StabCount::Parity,
+                    Some(StabCountName::Signed) => StabCount::Signed,
+                };
+                VoxelMethod::Rays(Stabbing { count, majority: rays.majority })
+            }
+            Some(VoxelMethodName::Fast) => {
+                let options =
+                    AccuracyOptions { order: self.order, beta: self.beta, ..AccuracyOptions::default() };
+                let given = options.accuracy(of_paper)?;
+                let explicit = if let Accuracy::Explicit { .. } = given { given } else { of_paper };
+                let Accuracy::Explicit { order, beta } = explicit else {
+                    return Err(Failure::invalid("the method 'fast' takes an order and a beta"));
+                };
+                VoxelMethod::Fast { order, beta }
+            }
+            Some(VoxelMethodName::Cloud) => VoxelMethod::Points(match self.points {
+                None | Some(PointsOfName::Vertices) => PointsOf::Vertices,
+                Some(PointsOfName::Barycentres) => PointsOf::Barycentres,
+            }),
+        };
+        Ok(VoxelConfig { threshold: self.threshold.unwrap_or(VoxelConfig::default().threshold), method })
     }
 }
 

@@ -6,6 +6,7 @@ use super::job::Job;
 use super::options::{self, AccuracyOptions, HeatMapOptions, SliceOptions, SurfaceOptions, VoxelOptions};
 use super::results;
 use crate::data::Layer;
+use crate::solid::VoxelMethod;
 use crate::winding::Accuracy;
 use crate::{check, slice, solid, surface};
 use js_sys::{Array, Date, Float64Array, Object, Uint8Array};
@@ -74,8 +75,14 @@ impl Handle {
     pub fn voxelize(&mut self, options: JsValue, job: &Job) -> Result<Object, JsValue> {
         let options: VoxelOptions = options::from_js(options)?;
         let lattice = options.lattice(self.bounds())?;
-        let field = self.field(None, job)?;
-        let voxels = solid::voxelize(field, &lattice, &options.config(), job).map_err(Failure::from)?;
+        let config = options.config(self.of_paper())?;
+        let voxels = match (config.method, self.soup()) {
+            (VoxelMethod::Rays(stabbing), Some(soup)) => {
+                solid::voxelize_by_rays(soup, &lattice, stabbing, config.threshold, job)
+            }
+            _ => solid::voxelize(self.field(None, job)?, &lattice, &config, job),
+        };
+        let voxels = voxels.map_err(Failure::from)?;
         Ok(results::voxels_to(&voxels, options.format, options.surface)?)
     }
 

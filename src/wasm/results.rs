@@ -2,7 +2,7 @@
 use super::convert::{bytes_to, numbers_to, triangles_to, triple_to, vectors_to};
 use super::failure::{Failure, object};
 use super::options::VoxelFormat;
-use crate::data::{Grid, Layer, Polygon, Ring, SurfaceMesh};
+use crate::data::{Grid, Lattice, Layer, Polygon, Ring, SurfaceMesh};
 use crate::math::{Aabb, Vec3};
 use crate::solid::Voxels;
 use js_sys::{Array, Float64Array, Object};
@@ -34,18 +34,27 @@ fn counts_to(counts: &[usize]) -> JsValue {
     counts.iter().map(|&count| JsValue::from(count)).collect::<Array>().into()
 }
 
+/// The entries `counts`, `origin` and `spacing`.
+pub fn lattice_to(lattice: &Lattice) -> [(&'static str, JsValue); 3] {
+    [
+        ("counts", counts_to(&lattice.counts)),
+        ("origin", triple_to(lattice.origin)),
+        ("spacing", triple_to(lattice.spacing)),
+    ]
+}
+
 /// `{ counts, origin, spacing, inside, count, volume, surface? }`.
 pub fn voxels_to(voxels: &Voxels, format: VoxelFormat, surface: bool) -> Result<Object, Failure> {
     let inside = match format {
         VoxelFormat::Bytes => bytes_to(&voxels.to_bytes()?)?,
         VoxelFormat::Bits => bytes_to(voxels.bits())?,
     };
-    let lattice = voxels.lattice();
-    let surface = surface.then(|| mesh_to(&voxels.surface())).transpose()?;
+    let [counts, origin, spacing] = lattice_to(voxels.lattice());
+    let surface = surface.then(|| voxels.surface()).transpose()?.as_ref().map(mesh_to).transpose()?;
     Ok(object([
-        ("counts", counts_to(&lattice.counts)),
-        ("origin", triple_to(lattice.origin)),
-        ("spacing", triple_to(lattice.spacing)),
+        counts,
+        origin,
+        spacing,
         ("inside", inside.into()),
         ("count", voxels.count().into()),
         ("volume", voxels.volume().into()),

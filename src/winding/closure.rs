@@ -1,7 +1,7 @@
 //! What closes a soup: triangles C with ∂C = −∂M, so that the winding number of M is an integer, the crossings of M ∪ C by
 //! any ray, less that of C; and for which components that is worth it.
 use super::chain::{components, cycles, net_edges, weld};
-use crate::data::TriangleSoup;
+use crate::data::{Loader, SavedError, Saver, TriangleSoup};
 use crate::math::{Vec3, covers, orient_yz, perturbed_side_of_plane};
 
 /// A component whose closure has more than this share of its triangles is *loose*: summing its own triangles costs less
@@ -81,12 +81,63 @@ impl Closure {
         if closure.counts.loose_components > 0 {
             cycles.retain(|cycle| !of_root[roots[cycle[0] as usize] as usize].is_loose());
         }
-        for cycle in cycles {
-            let cycle: Vec<Vec3> = cycle.into_iter().map(|v| soup.positions()[v as usize]).collect();
-            cap(&cycle, 0, cycle.len() - 1, &mut closure.caps);
-            closure.cycles.push(cycle);
-        }
+        let places = |cycle: Vec<u32>| cycle.into_iter().map(|v| soup.positions()[v as usize]).collect();
+        closure.set_cycles(cycles.into_iter().map(places).collect());
         closure
+    }
+
+    fn set_cycles(&mut self, cycles: Vec<Vec<Vec3>>) {
+        cycles.iter().for_each(|cycle| cap(cycle, 0, cycle.len() - 1, &mut self.caps));
+        self.cycles = cycles;
+    }
+
+    /// Adds a closure to saved bytes, of which the cycles are elsewhere. Caps follow from these.
+    pub fn save(&self, cycles: &[Vec<Vec3>], saver: &mut Saver) {
+        let counts = self.counts;
+        for count in [counts.boundary_edges, counts.capped_components, counts.loose_components] {
+            saver.number(count as u64);
+        }
+        let lengths: Vec<u32> = cycles.iter().map(|cycle| cycle.len() as u32).collect();
+        saver.numbers(&lengths);
+        saver.vectors(&cycles.concat());
+        saver.numbers(&self.loose);
+    }
+
+    /// The closure that was saved, of a soup of so many triangles.
+    ///
+    /// # Errors
+    /// If and only if the bytes end early, cycles are shorter than triangles or not finite, or loose triangles are none of the soup's.
+    pub fn load(triangles: usize, loader: &mut Loader) -> Result<Closure, SavedError> {
+        let [mut boundary_edges, mut capped_components, mut loose_components] = [0; 3];
+        for count in [&mut boundary_edges, &mut capped_components, &mut loose_components] {
+            *count = loader.number::<u64>("the saved counts of openings")? as usize;
+        }
+        let counts = ClosureCounts { boundary_edges, capped_components, loose_components };
+        let mut closure = Closure { counts, ..Closure::default() };
+        let lengths: Vec<u32> = loader.numbers("the saved lengths of openings")?;
+        let points = loader.vectors("the saved openings")?;
+        let total: u64 = lengths.iter().map(|n| u64::from(*n)).sum();
+        let are_rings = total == points.len() as u64 && lengths.iter().all(|n| *n > 2);
+        if !are_rings || !points.iter().all(|p| p.is_finite()) {
+            return Err(SavedError::Inconsistent("the saved openings are no rings of finite points"));
+        }
+        let mut rest = &points[..];
+        let ring = |length: &u32| {
+            let (ring, others) = rest.split_at(*length as usize);
+            rest = others;
+            ring.to_vec()
+        };
+        closure.set_cycles(lengths.iter().map(ring).collect());
+        closure.loose = loader.numbers("the saved loose triangles")?;
+        let is_there = closure.loose.last().is_none_or(|t| (*t as usize) < triangles);
+        if !is_there || closure.loose.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(SavedError::Inconsistent("the saved loose triangles are none of the saved soup"));
+        }
+        if !closure.loose.is_empty() {
+            closure.is_loose = vec![false; triangles];
+            closure.loose.iter().for_each(|t| closure.is_loose[*t as usize] = true);
+        }
+        Ok(closure)
     }
 
     fn set_loose(&mut self, soup: &TriangleSoup, roots: &[u32], of_root: &[Component]) {

@@ -1,7 +1,7 @@
 //! The field of a cloud: the dual tree for many points, the tree of Barill et al. 2018 for few.
 use super::dipoles::Dipoles;
 use super::many::{InsideTest, Many};
-use crate::data::{Cancelled, Monitor, OrientedCloud};
+use crate::data::{Cancelled, Loader, Monitor, OrientedCloud, SavedError};
 use crate::math::Vec3;
 use crate::treecode::{Scratch, Targets, Tree, TreeConfig, direct_sums};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -19,6 +19,23 @@ impl CloudField {
     pub fn new(cloud: Arc<OrientedCloud>, config: TreeConfig, is_bounded: bool) -> CloudField {
         let dipoles = Arc::new(Dipoles::new(cloud, is_bounded));
         let many = Many::new(dipoles.clone());
+        CloudField::with(dipoles, many, config)
+    }
+
+    /// # Errors
+    /// If and only if the bytes end early or hold no field of as many points.
+    pub fn load(
+        cloud: Arc<OrientedCloud>,
+        config: TreeConfig,
+        is_bounded: bool,
+        loader: &mut Loader,
+    ) -> Result<CloudField, SavedError> {
+        let dipoles = Arc::new(Dipoles::new(cloud, is_bounded));
+        let many = Many::load(dipoles.clone(), loader)?;
+        Ok(CloudField::with(dipoles, many, config))
+    }
+
+    fn with(dipoles: Arc<Dipoles>, many: Many, config: TreeConfig) -> CloudField {
         CloudField { dipoles, config, many, few: OnceLock::new(), refined: AtomicUsize::new(0) }
     }
 

@@ -49,13 +49,17 @@ pub enum Accuracy {
 impl Accuracy {
     pub const EXACT: Accuracy = Accuracy::Tolerance(0.0);
 
-    /// The paper's choice: order 2, and β = 2 for triangles, 2.3 for points (Barill et al. 2018, section 4).
+    /// The paper's choice for triangles: order 2, and β = 2 (Barill et al. 2018, section 4).
+    pub const OF_PAPER_FOR_SOUPS: Accuracy = Accuracy::Explicit { order: Order::Two, beta: 2.0 };
+    /// Its choice for points: β = 2.3.
+    pub const OF_PAPER_FOR_CLOUDS: Accuracy = Accuracy::Explicit { order: Order::Two, beta: 2.3 };
+
+    /// The paper's choice for a shape.
     pub fn of_paper(shape: &Shape) -> Accuracy {
-        let beta = match shape {
-            Shape::Soup(_) => 2.0,
-            Shape::Cloud(_) => 2.3,
-        };
-        Accuracy::Explicit { order: Order::Two, beta }
+        match shape {
+            Shape::Soup(_) => Accuracy::OF_PAPER_FOR_SOUPS,
+            Shape::Cloud(_) => Accuracy::OF_PAPER_FOR_CLOUDS,
+        }
     }
 }
 
@@ -118,7 +122,7 @@ pub struct WindingField {
     report: FieldReport,
 }
 
-enum Engine {
+pub(super) enum Engine {
     Soup(Box<SoupField>),
     Cloud(Box<CloudField>),
 }
@@ -136,8 +140,22 @@ impl WindingField {
             Shape::Soup(soup) => Engine::Soup(Box::new(SoupField::new(soup.clone(), &config))),
             Shape::Cloud(cloud) => Engine::Cloud(Box::new(CloudField::new(cloud.clone(), config, bounded))),
         };
+        WindingField::of_engine(shape, config, engine)
+    }
+
+    pub(super) fn of_engine(shape: Shape, config: TreeConfig, engine: Engine) -> WindingField {
         let report = report(&shape, &engine);
         WindingField { bounds: shape.bounds(), shape, config, engine, of_paper: OnceLock::new(), report }
+    }
+
+    /// How it was prepared.
+    pub fn config(&self) -> FieldConfig {
+        let bounded = matches!(&self.engine, Engine::Cloud(cloud) if cloud.is_bounded());
+        FieldConfig { leaf_size: self.config.leaf_size, bounded }
+    }
+
+    pub(super) fn parts(&self) -> (&Engine, &TreeConfig) {
+        (&self.engine, &self.config)
     }
 
     pub fn shape(&self) -> &Shape {
@@ -494,6 +512,55 @@ impl WindingField {
                 Ok(bits)
             }
         }
+    }
+
+    /// [`WindingField::classify_lattice`], handed to `store` some planes at a time with the first of them, which is a multiple of
+    /// eight. Those of clouds and loose triangles come all at once.
+    ///
+    /// # Errors
+    /// As [`WindingField::classify_lattice`].
+    pub(crate) fn classify_planes(
+        &self,
+        lattice: &Lattice,
+        threshold: f64,
+        monitor: &dyn Monitor,
+        store: &mut dyn FnMut(usize, &[u8]),
+    ) -> Result<(), FieldError> {
+        match &self.engine {
+            Engine::Soup(soup) if soup.many.is_none() => {
+                soup.for_each_group_of_planes(lattice, threshold, monitor, store)
+            }
+            _ => {
+                store(0, &self.classify_lattice(lattice, threshold, monitor)?);
+                Ok(())
+            }
+        }
+    }
+
+    /// Which samples of a lattice have w ≥ `threshold` as the evaluator of Barill et al. 2018 has it, with its parameters and
+    /// without proof: one bit for each, as of [`WindingField::classify_lattice`].
+    ///
+    /// # Errors
+    /// As [`WindingField::classify_lattice`].
+    pub fn classify_lattice_fast(
+        &self,
+        lattice: &Lattice,
+        (order, beta): (Order, f64),
+        threshold: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u8>, FieldError> {
+        let mut bits = zeroed(lattice.len().div_ceil(8))?;
+        match &self.engine {
+            Engine::Soup(_) => drop(self.of_paper()),
+            Engine::Cloud(cloud) => drop(cloud.few()),
+        }
+        let accuracy = Accuracy::Explicit { order, beta };
+        let block = |points: &[Vec3], results: &mut [f64], scratch: &mut Scratch| {
+            self.at_block(points, results, accuracy, scratch);
+        };
+        let store = |index: usize, w: f64| set_bit(&mut bits, index, w >= threshold);
+        for_each_lattice_block(lattice, block, store, "winding numbers", monitor)?;
+        Ok(bits)
     }
 
     /// Whether `q` is inside.

@@ -6,7 +6,7 @@ use super::many::Many;
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{FractionBy, SoupField, TIE};
 use crate::data::{
-    Cancelled, Lattice, Monitor, for_each_lattice_block, map_items, map_parts, map_tasks, zeroed,
+    Cancelled, Lattice, Monitor, for_each_lattice_block, map_items, map_parts, map_tasks, set_bit, zeroed,
 };
 use crate::math::Vec3;
 use crate::treecode::{DualAccuracy, LatticeTargets, Scratch};
@@ -126,41 +126,89 @@ impl SoupField {
         monitor: &dyn Monitor,
     ) -> Result<Vec<u8>, FieldError> {
         let mut bits = zeroed::<u8>(lattice.len().div_ceil(8))?;
-        let stage = "inside test";
-        let scan = Scan::new(self.facets(), 0..self.facets().len(), lattice);
         let plane = lattice.counts[0] * lattice.counts[1];
-        let mut touching = Vec::new();
         let groups = BYTES_OF_GROUP / (size_of::<i16>() * GROUP_PLANES * plane.max(1));
         let group = GROUP_PLANES * groups.max(1);
-        for (start, bits) in
-            (0..lattice.counts[2]).step_by(group).zip(bits.chunks_mut((plane * group / 8).max(1)))
-        {
-            let planes = start..(start + group).min(lattice.counts[2]);
-            let least = self.least_crossings(lattice, planes.clone(), threshold, (stage, monitor))?;
-            let fill = |slab: usize, counted: &Slab, bits: &mut [u8]| {
-                let first = slab * SLAB_PLANES * plane;
-                let least = &least[first - start * plane..];
-                let eights = counted.crossings.chunks(8).zip(least.chunks(8));
-                for (byte, (crossings, least)) in bits.iter_mut().zip(eights) {
-                    let is_inside = crossings.iter().zip(least).map(|(n, least)| *n >= i32::from(*least));
-                    *byte = is_inside.rev().fold(0, |byte, inside| byte << 1 | u8::from(inside));
-                }
-                let decide = |index| {
-                    let q = lattice.point(lattice.sample(index));
-                    (index, self.is_inside_on_surface(q, i32::from(least[index - first]), threshold))
-                };
-                self.on_surface(lattice, slab, counted).into_iter().map(decide).collect()
-            };
-            touching.extend(for_each_slab(&scan, planes, bits, 1, fill, stage, monitor)?);
-        }
-        for (index, inside) in touching {
-            let bit = 1 << (index % 8);
-            bits[index / 8] = if inside { bits[index / 8] | bit } else { bits[index / 8] & !bit };
+        let scan = Scan::new(self.facets(), 0..self.facets().len(), lattice);
+        for (planes, bits) in groups_of(lattice, group).zip(bits.chunks_mut((plane * group / 8).max(1))) {
+            self.bits_of_planes(&scan, lattice, planes, threshold, bits, monitor)?;
         }
         Ok(bits)
     }
 
-    /// For each sample of some planes the least number of crossings, of surface and caps, that is inside: the fraction's
+    /// [`SoupField::lattice_bits`], handed to `store` some planes at a time, with the first of them, which is a multiple of eight.
+    pub(super) fn for_each_group_of_planes(
+        &self,
+        lattice: &Lattice,
+        threshold: f64,
+        monitor: &dyn Monitor,
+        store: &mut dyn FnMut(usize, &[u8]),
+    ) -> Result<(), FieldError> {
+        let plane = lattice.counts[0] * lattice.counts[1];
+        let scan = Scan::new(self.facets(), 0..self.facets().len(), lattice);
+        let mut bits = zeroed::<u8>((plane * GROUP_PLANES.min(lattice.counts[2])).div_ceil(8))?;
+        for planes in groups_of(lattice, GROUP_PLANES) {
+            let bits = &mut bits[..(plane * planes.len()).div_ceil(8)];
+            self.bits_of_planes(&scan, lattice, planes.clone(), threshold, bits, monitor)?;
+            store(planes.start, bits);
+        }
+        Ok(())
+    }
+
+    /// The bits of some planes, a group of which the first is a multiple of [`SLAB_PLANES`].
+    fn bits_of_planes(
+        &self,
+        scan: &Scan,
+        lattice: &Lattice,
+        planes: Range<usize>,
+        threshold: f64,
+        bits: &mut [u8],
+        monitor: &dyn Monitor,
+    ) -> Result<(), FieldError> {
+        let plane = lattice.counts[0] * lattice.counts[1];
+        let start = planes.start * plane;
+        // Within a group of several its own progress would start again.
+        let before = planes.start as f64 / lattice.counts[2] as f64;
+        let is_all = planes.len() == lattice.counts[2];
+        let named = |fraction: f64, stage: &str| {
+            monitor.report(if is_all { fraction } else { before }, stage).is_ok()
+        };
+        let stage = "inside test";
+        let least = self.least_crossings(lattice, planes.clone(), threshold, (stage, &named))?;
+        let fill = |slab: usize, counted: &Slab, bits: &mut [u8]| {
+            let first = slab * SLAB_PLANES * plane;
+            match &least {
+                Least::Everywhere(least) => {
+                    let least = i32::from(*least);
+                    for (byte, crossings) in bits.iter_mut().zip(counted.crossings.chunks(8)) {
+                        *byte = byte_of(crossings.iter().map(|n| *n >= least));
+                    }
+                }
+                Least::Each(least) => {
+                    let eights = counted.crossings.chunks(8).zip(least[first - start..].chunks(8));
+                    for (byte, (crossings, least)) in bits.iter_mut().zip(eights) {
+                        *byte =
+                            byte_of(crossings.iter().zip(least).map(|(n, least)| *n >= i32::from(*least)));
+                    }
+                }
+            }
+            let decide = |index: usize| {
+                let q = lattice.point(lattice.sample(index));
+                let least = match &least {
+                    Least::Everywhere(least) => *least,
+                    Least::Each(least) => least[index - start],
+                };
+                (index, self.is_inside_on_surface(q, i32::from(least), threshold))
+            };
+            self.on_surface(lattice, slab, counted).into_iter().map(decide).collect()
+        };
+        let touching = for_each_slab(scan, planes, bits, 1, fill, stage, &named)?;
+        touching.into_iter().for_each(|(index, inside)| set_bit(bits, index - start, inside));
+        monitor.report(if is_all { 1.0 } else { before }, stage)?;
+        Ok(())
+    }
+
+    /// For the samples of some planes the least number of crossings, of surface and caps, that is inside: the fraction's
     /// bound decides, or an exact sum.
     fn least_crossings(
         &self,
@@ -168,18 +216,17 @@ impl SoupField {
         planes: Range<usize>,
         threshold: f64,
         report: (&str, &dyn Monitor),
-    ) -> Result<Vec<i16>, FieldError> {
+    ) -> Result<Least, FieldError> {
+        if self.is_closed() {
+            return Ok(Least::Everywhere(least_integer(threshold, 0.0)));
+        }
         let plane = lattice.counts[0] * lattice.counts[1];
         let mut result = zeroed::<i16>(plane * planes.len())?;
-        if self.is_closed() {
-            result.fill(least_integer(threshold, 0.0));
-            return Ok(result);
-        }
         let of_block = |ends| self.least_of_block(lattice, ends, threshold);
         let first = planes.start * plane;
         let store = |place: usize, row: &[i16]| result[place - first..][..row.len()].copy_from_slice(row);
         self.for_each_boundary_row(lattice, planes, of_block, store, report)?;
-        Ok(result)
+        Ok(Least::Each(result))
     }
 
     fn least_of_block(&self, lattice: &Lattice, [low, high]: [[usize; 3]; 2], threshold: f64) -> Vec<i16> {
@@ -228,6 +275,24 @@ impl SoupField {
         self.count_refined(singly.len());
         result
     }
+}
+
+/// The least numbers of crossings that are inside.
+enum Least {
+    Everywhere(i16),
+    /// At each sample of some planes.
+    Each(Vec<i16>),
+}
+
+/// The planes of a lattice, `size` of them at a time.
+fn groups_of(lattice: &Lattice, size: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+    let count = lattice.counts[2];
+    (0..count).step_by(size).map(move |start| start..count.min(start + size))
+}
+
+/// Up to eight bits, lowest first.
+pub(super) fn byte_of(bits: impl DoubleEndedIterator<Item = bool>) -> u8 {
+    bits.rev().fold(0, |byte, bit| byte << 1 | u8::from(bit))
 }
 
 type Sample = [usize; 3];
@@ -288,7 +353,7 @@ fn extremes(values: &[f64]) -> (f64, f64) {
 
 /// Counts the crossings of every slab, in parallel, and hands them with the slab's part of `output`, `per_plane` items for
 /// each sample of a plane, to `fill`; gives what `fill` has found, in order.
-fn for_each_slab<T: Send, R: Send>(
+pub(super) fn for_each_slab<T: Send, R: Send>(
     scan: &Scan,
     planes: Range<usize>,
     output: &mut [T],

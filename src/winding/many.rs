@@ -1,6 +1,6 @@
 //! Winding numbers at many points at once, by the dual tree, and inside tests made of them: coarse ones first, finer ones for
 //! the points that these leave open, at last the direct sum.
-use crate::data::{Cancelled, Monitor, map_tasks};
+use crate::data::{Cancelled, Loader, Monitor, SavedError, Saver, map_tasks};
 use crate::math::Vec3;
 use crate::treecode::{DualAccuracy, DualTree, PointTargets, Proof, Sources, Targets};
 use std::sync::Arc;
@@ -37,6 +37,16 @@ pub struct InsideTest<'a> {
 impl Many {
     pub fn new(sources: Arc<dyn Sources>) -> Many {
         Many { tree: DualTree::build(sources, LEAF) }
+    }
+
+    pub fn save(&self, saver: &mut Saver) {
+        self.tree.save(saver);
+    }
+
+    /// # Errors
+    /// If and only if the bytes end early or hold no tree over as many sources.
+    pub fn load(sources: Arc<dyn Sources>, loader: &mut Loader) -> Result<Many, SavedError> {
+        Ok(Many { tree: DualTree::load(sources, LEAF, loader)? })
     }
 
     pub fn bytes(&self) -> usize {

@@ -5,8 +5,8 @@
 //! (`scan` on lattices, `locate` over `columns` at scattered points) and a fraction of what closes it (`chain`, `closure`,
 //! `curtain`), summed on lattices by `boundary` and spared most inside tests of scattered points by `answers`. Clouds
 //! (`cloud_field`) and triangles that are not worth closing (`loose`) are summed by a dual tree where many points are asked
-//! for at once (`many`), and by the tree of Barill et al. 2018 at few. `hierarchy` and `parity` are the methods that the paper
-//! compares itself with.
+//! for at once (`many`), and by the tree of Barill et al. 2018 at few. `hierarchy`, `parity` and, on lattices, `stab` are the methods
+//! that papers compare theirs with. `saved` has fields as bytes.
 mod angle_product;
 mod answers;
 mod boundary;
@@ -32,8 +32,10 @@ mod many;
 mod near;
 mod parity;
 mod planar;
+mod saved;
 mod scan;
 mod soup_field;
+mod stab;
 mod surface_rule;
 mod triangles;
 mod variation;
@@ -50,4 +52,6 @@ pub use gradient::{edge_gradient, winding_gradient, winding_gradient_of_cloud, w
 pub use hierarchy::ExactHierarchy;
 pub use parity::{RayParity, Rays};
 pub use planar::{PlanarCloud, PlanarConfig, PlanarCost, PlanarError, PlanarField};
+pub use saved::{LoadError, is_saved_field};
+pub use stab::{StabCount, Stabbing, stab_lattice};
 pub use triangles::Triangles;

@@ -10,9 +10,10 @@ use super::locate::Locator;
 use super::many::Many;
 use super::surface_rule::{share_of_touching, touches_inside};
 use super::triangles::Triangles;
-use crate::data::{BLOCK, TriangleSoup};
+use crate::data::{BLOCK, Loader, SavedError, Saver, TriangleSoup};
 use crate::math::{Aabb, Vec3, area_vector};
 use crate::treecode::{Kernel, Order, Scratch, Tree, TreeConfig, direct_sums};
+use std::convert::Infallible;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, OnceLock};
@@ -42,6 +43,8 @@ pub struct SoupField {
     pub(super) many: Option<Many>,
     locator: OnceLock<Locator>,
     answers: OnceLock<Answers>,
+    /// Of the cells, if they were saved.
+    saved_answers: Vec<i8>,
     refined: AtomicUsize,
 }
 
@@ -65,13 +68,49 @@ pub enum FractionBy {
 
 impl SoupField {
     pub fn new(soup: Arc<TriangleSoup>, config: &TreeConfig) -> SoupField {
-        let mut closure = Closure::of(&soup);
+        let closure = Closure::of(&soup);
+        let built = SoupField::with(soup, closure, config, |sources| Ok::<_, Infallible>(Many::new(sources)));
+        match built {
+            Ok(field) => field,
+            Err(never) => match never {},
+        }
+    }
+
+    /// Adds what was built to saved bytes.
+    pub fn save(&self, saver: &mut Saver) {
+        self.closure.save(self.curtain.cycles(), saver);
+        if let Some(many) = &self.many {
+            many.save(saver);
+        }
+        let of_cells = self.answers.get().map_or(&self.saved_answers, |answers| &answers.of_cells);
+        saver.numbers(of_cells);
+    }
+
+    /// # Errors
+    /// If and only if the bytes end early or hold nothing that could be of the field of this soup.
+    pub fn load(
+        soup: Arc<TriangleSoup>,
+        config: &TreeConfig,
+        loader: &mut Loader,
+    ) -> Result<SoupField, SavedError> {
+        let closure = Closure::load(soup.len(), loader)?;
+        let mut field = SoupField::with(soup, closure, config, |sources| Many::load(sources, loader))?;
+        field.saved_answers = loader.numbers("the saved answers of cells")?;
+        Ok(field)
+    }
+
+    fn with<E>(
+        soup: Arc<TriangleSoup>,
+        mut closure: Closure,
+        config: &TreeConfig,
+        many: impl FnOnce(Arc<Triangles>) -> Result<Many, E>,
+    ) -> Result<SoupField, E> {
         let curtain = Curtain::new(std::mem::take(&mut closure.cycles));
         let needs_tree = !closure.loose.is_empty() || curtain.edges() > FEW_EDGES;
         let closure = Arc::new(closure);
         let sources = Triangles::of_fraction(soup.clone(), closure.clone());
-        let many = (!closure.loose.is_empty()).then(|| Many::new(Arc::new(sources.clone())));
-        SoupField {
+        let many = if closure.loose.is_empty() { None } else { Some(many(Arc::new(sources.clone()))?) };
+        Ok(SoupField {
             boundary: BoundaryField::new(curtain.cycles(), &closure.caps),
             needs_tree,
             tree: OnceLock::new(),
@@ -83,8 +122,9 @@ impl SoupField {
             sources,
             locator: OnceLock::new(),
             answers: OnceLock::new(),
+            saved_answers: Vec::new(),
             refined: AtomicUsize::new(0),
-        }
+        })
     }
 
     pub fn counts(&self) -> ClosureCounts {
@@ -120,6 +160,7 @@ impl SoupField {
     pub fn bytes(&self) -> usize {
         let locator = self.locator.get().map_or(0, Locator::bytes);
         let answers = self.answers.get().map_or(0, |a| a.of_cells.len());
+        let answers = answers + self.saved_answers.len();
         let many = self.many.as_ref().map_or(0, Many::bytes);
         let tree = self.tree.get().map_or(0, Tree::bytes);
         self.closure.bytes() + self.boundary.bytes() + tree + many + locator + answers
@@ -197,7 +238,13 @@ impl SoupField {
             return answers;
         }
         let is_known = self.is_closed() || !self.is_summed();
-        let of_cells = if is_known { vec![] } else { answers(self, self.locator()) };
+        let of_cells = if is_known {
+            vec![]
+        } else if self.saved_answers.len() == self.locator().cells().len() {
+            self.saved_answers.clone()
+        } else {
+            answers(self, self.locator())
+        };
         let cap_area = self.closure.caps.iter().map(|cap| area_vector(*cap).length()).sum();
         let _ = self.answers.set(Answers { of_cells, cap_area });
         self.answers.get().expect("it was set just now, here or by another thread")

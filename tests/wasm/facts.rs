@@ -53,7 +53,7 @@ pub fn voxels_agree() {
     let field = field(broken());
     let lattice = Lattice::with_resolution(field.bounds(), 40).unwrap();
     let voxels = voxelize(&field, &lattice, &VoxelConfig::default(), &Silent).unwrap();
-    let surface = voxels.surface();
+    let surface = voxels.surface().unwrap();
     assert_eq!((lattice.counts, voxels.count()), ([40, 40, 10], 7900));
     assert_eq!((surface.positions.len(), surface.triangles.len()), (4730, 9456));
     assert_close(voxels.volume(), 63.20000000000002);

@@ -1,18 +1,22 @@
 //! Geometry to bytes. Coordinates are in millimetres.
 mod dxf;
 mod json;
+mod nrrd;
 mod obj;
 mod off;
 mod ply;
 mod stl;
 mod svg;
 mod threemf;
+mod vox;
 mod xyz;
 
 pub use dxf::write_layers_dxf;
 pub use json::write_layers_json;
+pub use nrrd::{NrrdEncoding, write_nrrd};
 pub use svg::{write_layer_svg, write_layers_svg};
 pub use threemf::{MeshResolution, SliceStackError, write_layers_3mf};
+pub use vox::{VoxContent, VoxError, write_vox};
 
 use crate::data::{Polygon, Ring, TriangleSoup};
 use crate::math::Vec3;

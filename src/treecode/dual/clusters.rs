@@ -105,7 +105,7 @@ impl Clusters {
 }
 
 /// The largest extent of a source of each cluster, in the unit frame; nothing where no source is bounded.
-fn extents(sources: &dyn Sources, spans: &[Range<usize>], items: &[u32], scale: f64) -> Vec<f32> {
+pub(super) fn extents(sources: &dyn Sources, spans: &[Range<usize>], items: &[u32], scale: f64) -> Vec<f32> {
     if sources.is_empty() || sources.extent(0).is_none() {
         return vec![];
     }

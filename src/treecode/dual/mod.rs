@@ -17,6 +17,7 @@ mod near;
 mod octet;
 mod place;
 mod reach;
+mod saved;
 mod sources;
 mod targets;
 mod tree;

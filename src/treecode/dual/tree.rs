@@ -2,7 +2,7 @@ use super::clusters::Clusters;
 use super::reach::reaches;
 use super::walk::{Findings, Space, Walk};
 use super::{DualAccuracy, Sources, Targets};
-use crate::data::{Cancelled, Monitor, map_tasks};
+use crate::data::{Cancelled, Loader, Monitor, SavedError, Saver, map_tasks};
 use std::sync::Arc;
 
 /// Tasks between two reports to the monitor: some 20 ms of work on one thread. Their values are kept until then.
@@ -32,6 +32,24 @@ impl DualTree {
     pub fn build(sources: Arc<dyn Sources>, leaf_size: usize) -> DualTree {
         let clusters = Clusters::build(&*sources, leaf_size);
         DualTree { sources, clusters }
+    }
+
+    /// Adds all that was built to saved bytes.
+    pub(crate) fn save(&self, saver: &mut Saver) {
+        self.clusters.save(saver);
+    }
+
+    /// The tree that was saved, over the same sources.
+    ///
+    /// # Errors
+    /// If and only if the bytes end early or hold no tree over as many sources, with as many in a leaf.
+    pub(crate) fn load(
+        sources: Arc<dyn Sources>,
+        leaf_size: usize,
+        loader: &mut Loader,
+    ) -> Result<DualTree, SavedError> {
+        let clusters = Clusters::load(&*sources, leaf_size, loader)?;
+        Ok(DualTree { sources, clusters })
     }
 
     /// Number of clusters.
