@@ -7,10 +7,12 @@ use super::failure::{Failure, object};
 use super::job::Job;
 use super::options::{self, CloudOptions, ReadOptions};
 use crate::data::{OrientedCloud, PointCloud, Shape, TriangleSoup, Warning};
+use crate::distance::DistanceTree;
 use crate::estimate::{self, EstimateConfig};
 use crate::io::{self, Geometry};
 use crate::math::Aabb;
 use crate::orient::{OrientMethod, orient_watched};
+use crate::solid::SignedDistance;
 use crate::winding::{FieldConfig, WindingField};
 use js_sys::{Object, Reflect, Uint8Array, Uint32Array};
 use std::sync::Arc;
@@ -33,6 +35,7 @@ pub struct Handle {
     format: &'static str,
     warnings: Vec<Warning>,
     field: Option<(FieldConfig, WindingField)>,
+    distances: Option<Arc<DistanceTree>>,
 }
 
 #[wasm_bindgen]
@@ -58,7 +61,7 @@ impl Handle {
             return Err(Failure::invalid(message).into());
         }
         let format = imported.format.name();
-        let mut handle = Handle { source, format, warnings: imported.warnings, field: None };
+        let mut handle = Handle { source, format, warnings: imported.warnings, field: None, distances: None };
         handle.orient_where_asked(options.orient, job)?;
         Ok(handle)
     }
@@ -76,7 +79,7 @@ impl Handle {
             return Err(Failure::new("EmptyInput", "there are no triangles: at least one is needed").into());
         }
         let source = Source::Soup(Arc::new(soup));
-        Ok(Handle { source, format: "arrays", warnings, field: None })
+        Ok(Handle { source, format: "arrays", warnings, field: None, distances: None })
     }
 
     /// A cloud of arrays: points and perhaps normals xyzxyz…, areas one for each.
@@ -104,7 +107,7 @@ impl Handle {
             return Err(Failure::new("EmptyInput", "none of the points is usable").into());
         }
         let source = Source::Cloud { given, oriented: None };
-        let mut handle = Handle { source, format: "arrays", warnings, field: None };
+        let mut handle = Handle { source, format: "arrays", warnings, field: None, distances: None };
         handle.orient_where_asked(options.orient, job)?;
         Ok(handle)
     }
@@ -293,6 +296,13 @@ impl Handle {
             None => (config, WindingField::new(self.shape(job)?, config)),
         };
         Ok(&self.field.insert(field).1)
+    }
+
+    /// The field and the tree of distances, each built the first time.
+    pub(super) fn signed_distance(&mut self, job: &Job) -> Result<SignedDistance<'_>, Failure> {
+        let shape = self.shape(job)?;
+        let tree = self.distances.get_or_insert_with(|| Arc::new(DistanceTree::new(&shape))).clone();
+        Ok(SignedDistance::with_tree(self.field(None, job)?, tree))
     }
 
     pub(super) fn soup(&self) -> Option<&TriangleSoup> {

@@ -10,6 +10,7 @@ use crate::data::{Cancelled, Monitor, OutOfMemory, fill_blocks, map_items, zeroe
 use crate::distance::{Closest, DistanceTree, Search};
 use crate::math::{Aabb, Vec3};
 use crate::winding::{Accuracy, FieldError, WindingField};
+use std::sync::Arc;
 
 pub use lattice::Slab;
 
@@ -75,7 +76,7 @@ impl From<OutOfMemory> for DistanceError {
 /// ```
 pub struct SignedDistance<'a> {
     field: &'a WindingField,
-    tree: DistanceTree,
+    tree: Arc<DistanceTree>,
 }
 
 /// A nearest point, with what depends on the sign.
@@ -93,7 +94,12 @@ pub struct SignedClosest {
 impl<'a> SignedDistance<'a> {
     /// Builds the tree; the field tells inside from outside.
     pub fn new(field: &'a WindingField) -> SignedDistance<'a> {
-        SignedDistance { field, tree: DistanceTree::new(field.shape()) }
+        SignedDistance::with_tree(field, Arc::new(DistanceTree::new(field.shape())))
+    }
+
+    /// With a tree that was built before, of the same shape.
+    pub fn with_tree(field: &'a WindingField, tree: Arc<DistanceTree>) -> SignedDistance<'a> {
+        SignedDistance { field, tree }
     }
 
     pub fn field(&self) -> &'a WindingField {
@@ -176,6 +182,9 @@ impl<'a> SignedDistance<'a> {
 
     /// The direction in which the signed distance rises at `place`.
     fn gradient(&self, place: Vec3, closest: &Closest, inside: bool) -> Vec3 {
+        if closest.distance.is_nan() {
+            return Vec3::NAN;
+        }
         let away = (place - closest.point).normalize_or_zero();
         if closest.distance == 0.0 || away == Vec3::ZERO {
             return self.tree.normal(closest.element);
