@@ -13,6 +13,7 @@
 pub mod bvh;
 pub mod check;
 pub mod data;
+pub mod distance;
 pub mod estimate;
 pub mod io;
 pub mod levelset;

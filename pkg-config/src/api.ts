@@ -1,4 +1,6 @@
+import type { Distances, HollowOptions } from './distance-api.js';
 import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
+export type * from './distance-api.js';
 export type * from './print-api.js';
 import type { VoxelFunctions, VoxelMethodOptions, VoxelShape } from './voxels-api.js';
 export type * from './voxels-api.js';
@@ -208,7 +210,7 @@ export type SoupFormat = 'stl' | 'obj' | 'ply' | 'off';
 export type CloudFormat = 'ply' | 'xyz';
 
 /** What a soup and a cloud have in common: a winding field, and questions to it. */
-export interface Shape extends VoxelShape {
+export interface Shape extends VoxelShape, Distances {
   readonly kind: 'soup' | 'cloud';
   /** The file's format, `arrays`, or `field` if it was saved. */
   readonly format: string;
@@ -244,6 +246,8 @@ export interface Soup extends Shape {
   readonly kind: 'soup';
   /** The triangles as they are. */
   geometry(): Promise<{ positions: Float32Array; indices: Uint32Array; origin: Float64Array }>;
+  /** The walls along its inside, less the drains: closed and manifold. Fails with `EmptyResult` where they leave no cavity. */
+  hollow(options: HollowOptions): Promise<Mesh>;
   /** Where the surface is open: two ends (xyzxyz) for each of `count` edges. */
   boundaryEdges(): Promise<{ positions: Float32Array; origin: Float64Array; count: number }>;
   /**

@@ -5,6 +5,7 @@ export type ErrorCode =
   | 'NonFiniteVertex'
   | 'IndexOutOfRange'
   | 'EmptyInput'
+  | 'EmptyResult'
   | 'MissingNormals'
   | 'InvalidArgument'
   | 'OutOfMemory'
@@ -25,7 +26,7 @@ export interface ErrorData {
 /**
  * The one error class of this package. `details` by code: `ParseError` { format, byte | line, expected },
  * `NonFiniteVertex` { vertex }, `IndexOutOfRange` { triangle, index, vertices }, `OutOfMemory` { bytes },
- * `Aborted` { reason }. `DoesNotFit` says that a print is larger than its printer, or off its bed.
+ * `Aborted` { reason }. `EmptyResult` says that nothing is left of a shape, or no cavity. `DoesNotFit` says that a print is larger than its printer, or off its bed.
  */
 export class WindingError extends Error {
   readonly code: ErrorCode;

@@ -122,6 +122,19 @@ class BaseShape {
     return this.ask('surface', [forEngine(options)], options);
   }
 
+  signedDistance(what: View | object = {}, options?: CallOptions): unknown {
+    if (ArrayBuffer.isView(what)) return this.ask('signedDistance', [handOver(what as View, false), forEngine(options)], options);
+    return this.ask('distanceLattice', [forEngine(what)], what);
+  }
+
+  closestPoints(points: View, options?: CallOptions): unknown {
+    return this.ask('closestPoints', [handOver(points, false), forEngine(options)], options);
+  }
+
+  offset(options: object): unknown {
+    return this.ask('offset', [forEngine(options)], options);
+  }
+
   heatMap(options: object): unknown {
     return this.ask('heatMap', [forEngine(options)], options);
   }
@@ -141,6 +154,10 @@ class SoupShape extends BaseShape {
       const { points, normals, areas, warnings } = answer as Required<CloudArrays> & Pick<Description, 'warnings'>;
       return make(this.caller, 'cloud', [points, normals, areas, {}], options, warnings);
     });
+  }
+
+  hollow(options: object): unknown {
+    return this.ask('hollow', [forEngine(options)], options);
   }
 
   boundaryEdges(): unknown {

@@ -1,4 +1,5 @@
 import type * as api from './api.js';
+import type { SyncDistances } from './distance-api.js';
 
 /** The same, with plain values where promises were. */
 type Plain<T> = T extends (...args: infer A) => Promise<infer R>
@@ -8,11 +9,11 @@ type Plain<T> = T extends (...args: infer A) => Promise<infer R>
     : T;
 type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
 
-export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud'> {
+export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | keyof SyncDistances>, SyncDistances {
   /** As in the other entry. */
   toCloud(options?: Parameters<api.Soup['toCloud']>[0]): Cloud;
 }
-export interface Cloud extends Synchronous<api.Cloud> {}
+export interface Cloud extends Omit<Synchronous<api.Cloud>, keyof SyncDistances>, SyncDistances {}
 export type Shape = Soup | Cloud;
 
 /** An engine that answers at once, on the thread that asks. */

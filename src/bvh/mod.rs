@@ -2,11 +2,13 @@
 //! looked for comes in as closures.
 mod build;
 mod morton;
+mod narrow;
 mod nearest;
 mod sort;
 
 pub use build::cut_at_highest_bit;
 pub use morton::morton_code;
+pub use narrow::{Found, NarrowBvh, Narrowed};
 pub use nearest::Nearest;
 pub use sort::sorted_codes;
 

@@ -1,6 +1,7 @@
 //! Vectors, boxes, triangles, exact predicates and small matrices: no knowledge of files, trees or fields.
 mod aabb;
 mod chebyshev;
+mod closest;
 mod plane;
 mod predicates;
 mod registers;
@@ -8,6 +9,7 @@ mod triangle;
 
 pub use aabb::Aabb;
 pub use chebyshev::{Nodes, bernstein, lebesgue};
+pub use closest::{Feature, OnTriangle, closest_on_triangle, squared_distance_to_triangle};
 pub use glam::{DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
 pub use plane::{PlaneFit, fit_plane};
 pub use predicates::{

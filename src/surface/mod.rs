@@ -1,7 +1,8 @@
-//! Surfaces from a field: its level set as a mesh.
+//! Surfaces from a field: its level set as a mesh; those at a distance from the shape, and hollow shapes.
 mod cells;
 mod components;
 mod level;
+mod offset;
 mod points;
 mod samples;
 mod sharp;
@@ -9,6 +10,7 @@ mod sides;
 mod trim;
 
 pub use level::suggested_level;
+pub use offset::{Drain, HollowConfig, OffsetConfig, OffsetError, hollow, offset};
 
 use crate::data::{Cancelled, LatticeError, Monitor, Shape, SurfaceMesh};
 use crate::levelset::{TraceError, cells_of_points, cells_of_shape, trace_surface};
@@ -183,9 +185,7 @@ fn check(shape: &Shape, config: &SurfaceConfig) -> Result<(), SurfaceError> {
     if let Some(share) = config.min_component.filter(|share| !(0.0..=1.0).contains(share)) {
         return Err(SurfaceError::BadShare(share));
     }
-    if let Some(sharp) = config.sharp.filter(|sharp| !(10.0..=120.0).contains(sharp)) {
-        return Err(SurfaceError::BadSharp(sharp));
-    }
+    check_sharp(config.sharp)?;
     let is_size = |size: &f64| size.is_finite() && *size > 0.0;
     if let Some(trim) = config.trim.filter(|trim| !is_size(trim)) {
         return Err(SurfaceError::BadTrim(trim));
@@ -196,6 +196,13 @@ fn check(shape: &Shape, config: &SurfaceConfig) -> Result<(), SurfaceError> {
     match shape {
         Shape::Soup(_) if config.trim.is_some() => Err(SurfaceError::OnlyOfClouds("trimmed")),
         Shape::Soup(_) if config.smoothing.is_some() => Err(SurfaceError::OnlyOfClouds("smoothed")),
+        _ => Ok(()),
+    }
+}
+
+fn check_sharp(sharp: Option<f64>) -> Result<(), SurfaceError> {
+    match sharp {
+        Some(sharp) if !(10.0..=120.0).contains(&sharp) => Err(SurfaceError::BadSharp(sharp)),
         _ => Ok(()),
     }
 }

@@ -100,11 +100,21 @@ pub fn numbers_to(numbers: &[f64]) -> Result<Float64Array, Failure> {
     Ok(array)
 }
 
+pub fn singles_to(numbers: &[f32]) -> Result<Float32Array, Failure> {
+    let array: Float32Array = new_array("Float32Array", numbers.len(), 4)?.unchecked_into();
+    array.copy_from(numbers);
+    Ok(array)
+}
+
+pub fn indices_to(indices: &[u32]) -> Result<Uint32Array, Failure> {
+    let array: Uint32Array = new_array("Uint32Array", indices.len(), 4)?.unchecked_into();
+    array.copy_from(indices);
+    Ok(array)
+}
+
 /// Indices of triangles, three each.
 pub fn triangles_to(triangles: &[[u32; 3]]) -> Result<Uint32Array, Failure> {
-    let array: Uint32Array = new_array("Uint32Array", 3 * triangles.len(), 4)?.unchecked_into();
-    array.copy_from(triangles.as_flattened());
-    Ok(array)
+    indices_to(triangles.as_flattened())
 }
 
 /// Vectors as 32-bit floats xyzxyz…, relative to `origin`.

@@ -8,10 +8,12 @@ use super::job::Job;
 use super::options::{self, CloudOptions, ReadOptions};
 use super::saving::{SAVED, is_saved_field};
 use crate::data::{OrientedCloud, PointCloud, Shape, TriangleSoup, Warning};
+use crate::distance::DistanceTree;
 use crate::estimate::{self, EstimateConfig};
 use crate::io::{self, Geometry};
 use crate::math::Aabb;
 use crate::orient::{OrientMethod, orient_watched};
+use crate::solid::SignedDistance;
 use crate::winding::{Accuracy, FieldConfig, WindingField};
 use js_sys::{Object, Reflect, Uint8Array, Uint32Array};
 use std::sync::Arc;
@@ -34,6 +36,7 @@ pub struct Handle {
     format: &'static str,
     warnings: Vec<Warning>,
     field: Option<(FieldConfig, WindingField)>,
+    distances: Option<Arc<DistanceTree>>,
 }
 
 #[wasm_bindgen]
@@ -62,7 +65,7 @@ impl Handle {
             return Err(Failure::invalid(message).into());
         }
         let format = imported.format.name();
-        let mut handle = Handle { source, format, warnings: imported.warnings, field: None };
+        let mut handle = Handle { source, format, warnings: imported.warnings, field: None, distances: None };
         handle.orient_where_asked(options.orient, job)?;
         Ok(handle)
     }
@@ -80,7 +83,7 @@ impl Handle {
             return Err(Failure::new("EmptyInput", "there are no triangles: at least one is needed").into());
         }
         let source = Source::Soup(Arc::new(soup));
-        Ok(Handle { source, format: "arrays", warnings, field: None })
+        Ok(Handle { source, format: "arrays", warnings, field: None, distances: None })
     }
 
     /// A cloud of arrays: points and perhaps normals xyzxyz…, areas one for each.
@@ -108,7 +111,7 @@ impl Handle {
             return Err(Failure::new("EmptyInput", "none of the points is usable").into());
         }
         let source = Source::Cloud { given, oriented: None };
-        let mut handle = Handle { source, format: "arrays", warnings, field: None };
+        let mut handle = Handle { source, format: "arrays", warnings, field: None, distances: None };
         handle.orient_where_asked(options.orient, job)?;
         Ok(handle)
     }
@@ -315,7 +318,13 @@ impl Handle {
                 "the file holds the field of a {found}: a {wanted} is needed"
             )));
         }
-        Ok(Handle { source, format: SAVED, warnings: vec![], field: Some((field.config(), field)) })
+        Ok(Handle {
+            source,
+            format: SAVED,
+            warnings: vec![],
+            field: Some((field.config(), field)),
+            distances: None,
+        })
     }
 
     /// How the evaluator of Barill et al. 2018 has this shape's field.
@@ -324,6 +333,13 @@ impl Handle {
             Source::Soup(_) => Accuracy::OF_PAPER_FOR_SOUPS,
             Source::Cloud { .. } => Accuracy::OF_PAPER_FOR_CLOUDS,
         }
+    }
+
+    /// The field and the tree of distances, each built the first time.
+    pub(super) fn signed_distance(&mut self, job: &Job) -> Result<SignedDistance<'_>, Failure> {
+        let shape = self.shape(job)?;
+        let tree = self.distances.get_or_insert_with(|| Arc::new(DistanceTree::new(&shape))).clone();
+        Ok(SignedDistance::with_tree(self.field(None, job)?, tree))
     }
 
     pub(super) fn soup(&self) -> Option<&TriangleSoup> {

@@ -2,6 +2,7 @@
 //!
 //! What is exported is the interface between the WebAssembly and the package's own TypeScript, which users see.
 mod convert;
+mod distance;
 mod failure;
 #[cfg(feature = "faults")]
 mod faults;

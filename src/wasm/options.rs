@@ -182,19 +182,28 @@ pub struct VoxelOptions {
     pub surface: bool,
 }
 
-impl VoxelOptions {
-    const RESOLUTION: usize = 64;
+/// Cells along the longest side where nothing is said of them.
+const RESOLUTION: usize = 64;
 
+/// The cells over a box: by one of the three, or by none.
+pub fn lattice_of(
+    bounds: Aabb,
+    resolution: Option<usize>,
+    spacing: Option<f64>,
+    counts: Option<[usize; 3]>,
+) -> Result<Lattice, Failure> {
+    let lattice = match (resolution, spacing, counts) {
+        (resolution, None, None) => Lattice::with_resolution(bounds, resolution.unwrap_or(RESOLUTION)),
+        (None, Some(spacing), None) => Lattice::with_spacing(bounds, spacing),
+        (None, None, Some(counts)) => Lattice::with_counts(bounds, counts),
+        _ => return Err(Failure::invalid("give only one of resolution, spacing and counts")),
+    };
+    Ok(lattice?)
+}
+
+impl VoxelOptions {
     pub fn lattice(&self, bounds: Aabb) -> Result<Lattice, Failure> {
-        let lattice = match (self.resolution, self.spacing, self.counts) {
-            (resolution, None, None) => {
-                Lattice::with_resolution(bounds, resolution.unwrap_or(VoxelOptions::RESOLUTION))
-            }
-            (None, Some(spacing), None) => Lattice::with_spacing(bounds, spacing),
-            (None, None, Some(counts)) => Lattice::with_counts(bounds, counts),
-            _ => return Err(Failure::invalid("give only one of resolution, spacing and counts")),
-        };
-        Ok(lattice?)
+        lattice_of(bounds, self.resolution, self.spacing, self.counts)
     }
 
     /// `of_paper` completes an order or a β that is not given.

@@ -13,6 +13,7 @@ mod soup;
 mod split;
 
 pub use cloud::OfCloud;
+pub use plane::{Plane, meeting_of};
 pub use soup::{OfSoup, tree_of};
 
 use crate::bvh::Nearest;
@@ -20,13 +21,13 @@ use crate::data::{Cancelled, Monitor, SurfaceMesh, fill_in_blocks};
 use crate::math::Vec3;
 use crate::winding::Scratch;
 use creases::Creases;
-use plane::Plane;
 
 /// Scratch space of a search.
 #[derive(Default)]
 pub struct Search {
     nearest: Nearest,
     scratch: Scratch,
+    pub(super) distances: crate::distance::Search,
 }
 
 /// What the data says of the surface.
