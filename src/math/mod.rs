@@ -5,6 +5,7 @@ mod plane;
 mod predicates;
 mod registers;
 mod triangle;
+mod triangles_meet;
 
 pub use aabb::Aabb;
 pub use chebyshev::{Nodes, bernstein, lebesgue};
@@ -16,3 +17,4 @@ pub use predicates::{
 };
 pub use registers::{Floats, Plain, Registers, Work, in_widest_registers};
 pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};
+pub use triangles_meet::triangles_meet;
