@@ -2,7 +2,8 @@ import type { Request } from './protocol.js';
 
 /** Whether a call changes what a shape is, and so must be repeated when it is rebuilt. */
 const changes = ({ method, args }: Request) =>
-  method === 'orient' || (method === 'prepare' && (args[0] as { bounded?: boolean } | undefined)?.bounded !== undefined);
+  ['orient', 'orientFaces'].includes(method) ||
+  (method === 'prepare' && (args[0] as { bounded?: boolean } | undefined)?.bounded !== undefined);
 
 const MAKERS = new Set(['parse', 'soup', 'cloud']);
 

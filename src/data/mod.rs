@@ -9,8 +9,10 @@ mod monitor;
 mod pairs;
 mod parallel;
 mod saved;
+mod sets;
 mod soup;
 mod soup_cloud;
+mod topology;
 mod voxels;
 mod warning;
 
@@ -26,7 +28,9 @@ pub(crate) use pairs::{ascending, sorted_pairs};
 pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each, sort_keyed, threads};
 pub use saved::SavedError;
 pub(crate) use saved::{Loader, Saver};
+pub(crate) use sets::{Sets, TwoKinds};
 pub use soup::{SoupError, TriangleSoup};
+pub(crate) use topology::{Edge, LeftOut, Topology};
 pub use voxels::{VoxelDataError, VoxelRows, Voxels};
 pub use warning::{Warning, WarningKind};
 

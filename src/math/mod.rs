@@ -4,8 +4,10 @@ mod chebyshev;
 mod closest;
 mod plane;
 mod predicates;
+mod ray;
 mod registers;
 mod triangle;
+mod triangles_meet;
 
 pub use aabb::Aabb;
 pub use chebyshev::{Nodes, bernstein, lebesgue};
@@ -16,5 +18,7 @@ pub use predicates::{
     Sign, covers, meet, normal_signs, orient, orient_yz, perturbed_side_of_plane, side_of_edge,
     side_of_plane, tie_break, touches,
 };
+pub use ray::Ray;
 pub use registers::{Floats, Plain, Registers, Work, in_widest_registers};
 pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};
+pub use triangles_meet::triangles_meet;
