@@ -353,6 +353,7 @@ impl Handle {
     pub(super) fn replace_soup(&mut self, soup: TriangleSoup) {
         self.source = Source::Soup(Arc::new(soup));
         self.field = None;
+        self.distances = None;
     }
 
     pub(super) fn bounds(&self) -> Aabb {
