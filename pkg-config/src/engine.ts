@@ -36,7 +36,7 @@ export class Engine {
   /** Whether a call estimates normals or areas, or makes surfaces or layers, which takes the part of the WebAssembly that comes later. */
   needsMore({ method, handle, args }: Request): boolean {
     if (method === 'parse' || method === 'cloud') return (args.at(-1) as { orient?: string } | undefined)?.orient !== undefined;
-    if (BY_MORE.includes(method)) return true;
+    if (BY_MORE.includes(method) || (method === 'export' && args[0] === '3mf')) return true;
     return !WITHOUT_FIELD.includes(method) && (this.handles.get(handle)?.isRaw() ?? false);
   }
 

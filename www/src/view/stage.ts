@@ -1,7 +1,7 @@
 import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { cameraFor } from './framing.ts';
-import type { Box, Direction } from './framing.ts';
+import type { Box, CameraPlace, Direction } from './framing.ts';
 
 /** Angle that one press of an arrow key turns the camera. */
 const TURN_RADIANS = Math.PI / 24;
@@ -70,11 +70,30 @@ export class Stage {
     this.#beforeDraw.push(call);
   }
 
-  /** Looks at the whole box; from where the camera is unless a direction is given. */
+  get canvas(): HTMLCanvasElement {
+    return this.#renderer.domElement;
+  }
+
+  /** Keeps the camera where it is, while something else follows the pointer. */
+  hold(isHeld: boolean): void {
+    this.#controls.enabled = !isHeld;
+  }
+
+  /** Looks at the whole box, from now on what there is; from where the camera is unless a direction is given. */
   frame(box: Box | undefined = this.#box, direction?: Direction): void {
     if (!box) return;
     this.#box = box;
-    const { position, target, near, far } = cameraFor(box, this.camera, this.#controls.target, direction);
+    this.#go(cameraFor(box, this.camera, this.#controls.target, direction));
+  }
+
+  /** Looks at a part of what there is. */
+  look(part: Box): void {
+    const place = cameraFor(part, this.camera, this.#controls.target);
+    const whole = cameraFor(this.#box ?? part, this.camera, this.#controls.target);
+    this.#go({ ...place, far: Math.max(place.far, whole.far) });
+  }
+
+  #go({ position, target, near, far }: CameraPlace): void {
     this.camera.position.copy(position);
     this.camera.near = near;
     this.camera.far = far;

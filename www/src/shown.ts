@@ -1,0 +1,19 @@
+import type { CheckReport } from 'fast-winding';
+import { namedBy } from './defects.ts';
+import type { DefectKind } from './defects.ts';
+import { placesOf } from './places.ts';
+import type { Place } from './places.ts';
+import type { State } from './state.ts';
+
+/** Gathered once for each report. */
+const known = new WeakMap<CheckReport, Map<DefectKind, Place[]>>();
+
+/** The places of the defect that is shown. */
+export function shownPlaces({ model, report, defect }: State): Place[] {
+  if (!model || !report || !defect) return [];
+  const ofReport = known.get(report.value) ?? new Map<DefectKind, Place[]>();
+  known.set(report.value, ofReport);
+  const places = ofReport.get(defect.kind) ?? placesOf(namedBy(report.value, defect.kind), model.geometry);
+  ofReport.set(defect.kind, places);
+  return places;
+}
