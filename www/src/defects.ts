@@ -34,7 +34,7 @@ const KINDS: Record<DefectKind, Kind> = {
     note: 'Their front looks into the solid. Turning them over puts them right.',
     weight: 'alarm',
     figure: ({ flippedFaces }) => faces(flippedFaces.count),
-    named: ({ flippedFaces }) => ({ faces: flippedFaces.list }),
+    named: ({ flippedFaces }) => ({ faces: flippedFaces.list, areTurned: true }),
   },
   inconsistent: {
     label: 'Neighbours that disagree',

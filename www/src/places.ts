@@ -6,6 +6,8 @@ import type { Geometry } from './state.ts';
 /** Faces and vertices by their numbers; edges and pairs of faces as two numbers each. */
 export interface Named {
   readonly faces?: Uint32Array;
+  /** Whether these look into the solid. */
+  readonly areTurned?: boolean;
   readonly pairs?: Uint32Array;
   readonly edges?: Uint32Array;
   readonly vertices?: Uint32Array;
@@ -23,14 +25,20 @@ export interface Place {
   readonly lines: readonly number[];
   /** xyz…. */
   readonly points: readonly number[];
+  /** From where it can be seen, if that is known: a vector of any length. */
+  readonly facing?: readonly number[];
 }
 
-/** The places of what is named, the largest first. */
-export function placesOf(named: Named, { positions, indices, origin }: Geometry): Place[] {
+/** The places of what is named, the largest first; holes face away from the middle of the model. */
+export function placesOf(named: Named, { positions, indices, origin }: Geometry, middle: readonly number[]): Place[] {
   const point = (vertex: number): number[] => [...positions.subarray(3 * vertex, 3 * vertex + 3)];
   const cornersOf = (face: number): number[] => [...indices!.subarray(3 * face, 3 * face + 3)];
   const line = (a: number, b: number): number[] => [...point(a), ...point(b)];
-  const ofFaces = (faces: number[]): Place => place({ faces, around: faces.flatMap(cornersOf).flatMap(point) });
+  const ofFaces = (faces: number[]): Place => {
+    const corners = faces.map((face) => cornersOf(face).map(point));
+    const facing = mostly(corners.map(areaVector));
+    return place({ faces, around: corners.flat(2), facing: named.areTurned ? facing?.map((value) => -value) : facing });
+  };
 
   const places: Place[] = [];
   if (named.faces) places.push(...together([...named.faces].map(cornersOf), point).map((group) => ofFaces(group.map((k) => named.faces![k]))));
@@ -45,21 +53,47 @@ export function placesOf(named: Named, { positions, indices, origin }: Geometry)
   }
   for (const { vertices, isClosed } of named.loops ?? []) {
     const ends = [...vertices].slice(0, isClosed ? undefined : -1);
-    places.push(place({ lines: ends.flatMap((vertex, k) => line(vertex, vertices[(k + 1) % vertices.length])) }));
+    const corners = [...vertices].map(point);
+    places.push(place({ lines: ends.flatMap((vertex, k) => line(vertex, vertices[(k + 1) % vertices.length])), facing: away(areaVector(corners), corners[0], middle) }));
   }
   for (const vertex of named.vertices ?? []) places.push(place({ points: point(vertex) }));
   for (const { min, max } of named.boxes ?? []) places.push(place({ lines: frame(min, max).map((value, i) => value - origin[i % 3]) }));
   return places;
 }
 
-function place({ faces = [], lines = [], points = [], around = [...lines, ...points] }: Partial<Record<'faces' | 'lines' | 'points' | 'around', number[]>>): Place {
+type Parts = Partial<Record<'faces' | 'lines' | 'points' | 'around' | 'facing', number[]>>;
+
+function place({ faces = [], lines = [], points = [], around = [...lines, ...points], facing }: Parts): Place {
   const min: [number, number, number] = [Infinity, Infinity, Infinity];
   const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
   around.forEach((value, i) => {
     min[i % 3] = Math.min(min[i % 3], value);
     max[i % 3] = Math.max(max[i % 3], value);
   });
-  return { min, max, faces, lines, points };
+  return { min, max, faces, lines, points, facing };
+}
+
+/** Twice the area that a ring of points encloses, along its normal. */
+function areaVector(ring: readonly (readonly number[])[]): number[] {
+  const sum = [0, 0, 0];
+  ring.forEach((a, k) => {
+    const [u, v] = [a, ring[(k + 1) % ring.length]].map((p) => p.map((value, axis) => value - ring[0][axis]));
+    for (const axis of [0, 1, 2]) sum[axis] += u[(axis + 1) % 3] * v[(axis + 2) % 3] - u[(axis + 2) % 3] * v[(axis + 1) % 3];
+  });
+  return sum;
+}
+
+/** The sum of vectors, unless they cancel one another. */
+function mostly(vectors: readonly number[][]): number[] | undefined {
+  const sum = [0, 1, 2].map((axis) => vectors.reduce((total, vector) => total + vector[axis], 0));
+  const most = vectors.reduce((total, vector) => total + Math.hypot(...vector), 0);
+  return Math.hypot(...sum) > 0.3 * most ? sum : undefined;
+}
+
+/** A vector at a place, or its opposite, so that it leads away from the middle. */
+function away(vector: number[], at: readonly number[], middle: readonly number[]): number[] | undefined {
+  const along = vector.reduce((sum, value, k) => sum + value * (at[k] - middle[k]), 0);
+  return Math.hypot(...vector) === 0 ? undefined : vector.map((value) => (along < 0 ? -value : value));
 }
 
 function couples(list: Uint32Array): [number, number][] {

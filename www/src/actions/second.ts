@@ -48,6 +48,7 @@ async function takeSecond(page: Page, source: Source): Promise<void> {
       second: { shape, geometry, bounds, name },
       placement: firstPlacement(model!.bounds, bounds),
       visible: { ...visible, model: true, second: true, combined: false },
+      halves: false,
     });
   });
 }

@@ -27,5 +27,5 @@ export async function compareMethods(page: Page, resolution: number, threshold: 
 
 /** Colours the voxels that one method has wrong. */
 export function showDifference({ store }: Page, rows: readonly ComparedVoxels[], shown: ComparedMethod): void {
-  store.set({ comparison: { rows, shown }, visible: { ...allOf(false), layer: store.state.visible.layer, model: true, difference: true } });
+  store.set({ comparison: { rows, shown }, visible: { ...allOf(false), layer: store.state.visible.layer, model: true, difference: true }, halves: false });
 }

@@ -72,7 +72,7 @@ function factsOf({ value, milliseconds: time }: Timed<CheckReport>): [string, st
     ['Shells', closedShells === shells.count ? `${count(shells.count)}, closed` : `${count(shells.count)}, ${count(closedShells)} closed`],
     ['Volume', volume(enclosed)],
     ['Area', `${significant(area)} mm²`],
-    ['Bounds', `${bounds.min.map((low, k) => significant(bounds.max[k] - low)).join(' × ')} mm`],
+    ['Size, mm', bounds.min.map((low, k) => significant(bounds.max[k] - low)).join(' × ')],
   ];
   if (genus != null) facts.push(['Handles', count(genus)]);
   if (thickness) facts.push(['Thinnest', length(thickness.minimum)]);

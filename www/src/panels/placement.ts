@@ -53,7 +53,7 @@ function numberField(store: Store<State>, id: string, name: string, get: (placem
   input.id = id;
   input.setAttribute('aria-label', name);
   const show = ({ placement }: State): void => {
-    input.value = String(Number(get(placement).toPrecision(6)));
+    input.value = String(Number(get(placement).toPrecision(5)));
   };
   input.addEventListener('change', () => {
     if (Number.isFinite(input.valueAsNumber)) place(store, { ...store.state.placement, ...change(input.valueAsNumber) });

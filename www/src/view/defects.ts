@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshBasicMaterial, Points, PointsMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshBasicMaterial, MeshStandardMaterial, Points, PointsMaterial } from 'three';
 import type { Object3D } from 'three';
 import { token } from '../dom.ts';
 import type { Place } from '../places.ts';
@@ -6,6 +6,8 @@ import type { Geometry } from '../state.ts';
 import { thickLines } from './lines.ts';
 
 const LINE_PIXELS = 4;
+const OUTLINE_PIXELS = 1.5;
+const MOST_OUTLINED = 1000;
 const POINT_PIXELS = 9;
 /** Of what lies behind the model. */
 const SEEN_THROUGH = 0.3;
@@ -15,10 +17,12 @@ export function defectObjects(places: readonly Place[], { positions, indices }: 
   const objects: Object3D[] = [];
   const corners = places.flatMap(({ faces }) => faces).flatMap((face) => [...indices!.subarray(3 * face, 3 * face + 3)]);
   if (corners.length > 0) {
-    const ends = edgesOf(corners, positions);
     objects.push(...twice((isThrough) => faceMesh(corners, positions, colourToken, isThrough)));
-    // Faces without area are seen by their edges alone.
-    objects.push(...twice((isThrough) => lines(ends, colourToken, 1.5, isThrough)));
+    // Faces without area are seen by their edges alone; of many faces these would hide the shape.
+    if (corners.length <= 3 * MOST_OUTLINED) {
+      const ends = edgesOf(corners, positions);
+      objects.push(...twice((isThrough) => lines(ends, colourToken, OUTLINE_PIXELS, isThrough)));
+    }
   }
   const ends = places.flatMap((place) => place.lines);
   if (ends.length > 0) objects.push(...twice((isThrough) => lines(new Float32Array(ends), colourToken, LINE_PIXELS, isThrough)));
@@ -42,7 +46,8 @@ function faceMesh(corners: readonly number[], positions: Float32Array, colourTok
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   geometry.setIndex(new BufferAttribute(new Uint32Array(corners), 1));
-  return new Mesh(geometry, new MeshBasicMaterial({ color: token(colourToken), side: DoubleSide, ...seen(isThrough) }));
+  const colour = { color: token(colourToken), side: DoubleSide, ...seen(isThrough) };
+  return new Mesh(geometry, isThrough ? new MeshBasicMaterial(colour) : new MeshStandardMaterial({ ...colour, flatShading: true, roughness: 0.9 }));
 }
 
 function lines(ends: Float32Array, colourToken: string, pixels: number, isThrough: boolean): Object3D {

@@ -44,7 +44,8 @@ export class Inspector {
     const places = shownPlaces(this.#store.state);
     if (!model || !defect || places.length === 0) return;
     const least = LEAST_VIEW * diagonal(model.bounds);
-    this.#stage.look(around(defect.place === undefined ? places : [places[defect.place]], least));
+    const chosen = defect.place === undefined ? places : [places[defect.place]];
+    this.#stage.look(around(chosen, least), chosen.length === 1 ? chosen[0].facing : undefined);
   }
 }
 

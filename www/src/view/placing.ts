@@ -1,6 +1,7 @@
 import { Euler, Group, MathUtils } from 'three';
 import type { Object3D } from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
+import { token } from '../dom.ts';
 import { centreOf } from '../placement.ts';
 import type { Placement, Triple } from '../placement.ts';
 import { diagonal } from '../state.ts';
@@ -48,6 +49,7 @@ export class Placing {
   /** Draws the second model anew, with the colours of the style sheet as they are now. */
   refresh(): void {
     const { second } = this.#store.state;
+    this.#controls.setColors(token('--view-x'), token('--view-y'), token('--view-z'), token('--view-chosen'));
     // Given back before they are taken from the pivot.
     this.#part.replace();
     this.#pivot.clear();
