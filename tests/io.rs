@@ -66,6 +66,16 @@ fn indexed_formats_give_back_every_bit_of_a_soup() {
 }
 
 #[test]
+fn a_mesh_as_3mf_is_exact_and_its_triangles_share_vertices() {
+    let square = [[0.1, 0.2, 0.3], [1.1, 0.2, 0.3], [1.1, 1.2, 0.3], [0.1, 1.2, 0.3]].map(Vec3::from);
+    let [a, b, c, d] = square;
+    let loose = TriangleSoup::new(vec![a, b, c, c, d, a], vec![[0, 1, 2], [3, 4, 5], [0, 5, 1]]).unwrap();
+    let again = as_soup(read(&written_soup(&loose, MeshFormat::ThreeMf)).unwrap());
+    assert_eq!(again.positions(), square);
+    assert_eq!(again.triangles(), [[0, 1, 2], [2, 3, 0]], "one has two corners in one place");
+}
+
+#[test]
 fn ply_takes_no_more_room_than_exactness_needs() {
     let [long, short] = [awkward_soup(), in_f32(&awkward_soup())].map(|s| written_soup(&s, MeshFormat::Ply));
     // Four vertices of three numbers, each four bytes longer, and three words "double" for "float".

@@ -208,7 +208,7 @@ export interface Prepared {
   caps: number;
 }
 
-export type SoupFormat = 'stl' | 'obj' | 'ply' | 'off';
+export type SoupFormat = 'stl' | 'obj' | 'ply' | 'off' | '3mf';
 export type CloudFormat = 'ply' | 'xyz';
 
 /** What a soup and a cloud have in common: a winding field, and questions to it. */
@@ -239,7 +239,7 @@ export interface Shape extends VoxelShape, Distances {
   /** The surface where w = 1/2, closed unless it is trimmed. */
   surface(options?: SurfaceOptions): Promise<Mesh>;
   heatMap(options: { z: number; resolution?: number } & CallOptions): Promise<HeatMap>;
-  /** The shape as a file: `stl` (binary), `obj`, `ply` or `off` for soups, `ply` or `xyz` for clouds. */
+  /** The shape as a file: `stl` (binary), `obj`, `ply`, `off` or `3mf` for soups, `ply` or `xyz` for clouds. */
   export(format: SoupFormat | CloudFormat): Promise<Uint8Array>;
 }
 

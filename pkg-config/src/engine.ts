@@ -50,7 +50,7 @@ export class Engine {
       if (surface || VOXELS_BY_MORE.includes(how)) return true;
     }
     if (method === 'parse' || method === 'cloud') return (args.at(-1) as { orient?: string } | undefined)?.orient !== undefined;
-    if (BY_MORE.includes(method)) return true;
+    if (BY_MORE.includes(method) || (method === 'export' && args[0] === '3mf')) return true;
     return !WITHOUT_FIELD.includes(method) && (this.handles.get(handle)?.isRaw() ?? false);
   }
 

@@ -367,8 +367,9 @@ pub fn mesh_format(name: &str) -> Result<MeshFormat, Failure> {
         "obj" => Ok(MeshFormat::Obj),
         "ply" => Ok(MeshFormat::Ply),
         "off" => Ok(MeshFormat::Off),
+        "3mf" => Ok(MeshFormat::ThreeMf),
         _ => Err(Failure::invalid(format!(
-            "unknown format '{name}': soups can be 'stl', 'obj', 'ply' or 'off'"
+            "unknown format '{name}': soups can be 'stl', 'obj', 'ply', 'off' or '3mf'"
         ))),
     }
 }

@@ -148,7 +148,7 @@ for (const [name, start] of Object.entries(entries)) {
       assert.deepEqual([edges.count, edges.positions.length], [4, 24]);
     });
     await t.test('export, and back', async () => {
-      for (const format of ['stl', 'obj', 'ply', 'off']) {
+      for (const format of ['stl', 'obj', 'ply', 'off', '3mf']) {
         const again = await fw.Soup.parse(await soup.export(format));
         assert.deepEqual([again.count, again.bounds], [12, soup.bounds], format);
       }

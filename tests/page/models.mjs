@@ -18,9 +18,16 @@ export function boxObj(min, max) {
   return Buffer.from([...vertices, ...faces, ''].join('\n'));
 }
 
-/** A closed box of 12 triangles as binary STL, from `min` to `max`. */
-export function boxStl(min, max) {
-  const triangles = BOX_FACES.flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]);
+/** The sides of a box, in the order of their faces: two triangles each. */
+export const SIDES = { bottom: [0, 1], top: [2, 3], front: [4, 5], back: [6, 7], left: [8, 9], right: [10, 11] };
+
+/**
+ * A box of 12 triangles as binary STL, from `min` to `max`; closed, but `without` those triangles, and with those `flipped` whose front
+ * looks inward.
+ */
+export function boxStl(min, max, { without = [], flipped = [] } = {}) {
+  const all = BOX_FACES.flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]);
+  const triangles = all.map(([a, b, c], k) => (flipped.includes(k) ? [a, c, b] : [a, b, c])).filter((_, k) => !without.includes(k));
   const bytes = Buffer.alloc(84 + 50 * triangles.length);
   bytes.writeUInt32LE(triangles.length, 80);
   triangles.forEach((triangle, i) => {

@@ -1,8 +1,14 @@
 /** What a person sees and does on the page, in words the tests can use. */
+import { readFile } from 'node:fs/promises';
 
-/** Opens the page and waits until the first sample is shown with its layer. */
-export async function openPage(browser, url, { width = 1600, height = 900 } = {}) {
+const FOLDS = ['check', 'repair', 'voxels', 'surface', 'offset', 'combine', 'print', 'engine'].map((name) => `${name}-block`);
+
+/** Opens the page, with what folds unfolded, and waits until the first sample is shown with its layer. */
+export async function openPage(browser, url, { width = 1600, height = 900, unfolded = FOLDS } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
+  await context.addInitScript((ids) => {
+    if (ids && !localStorage.getItem('fast-winding.open')) localStorage.setItem('fast-winding.open', JSON.stringify(ids));
+  }, unfolded);
   const page = await context.newPage();
   page.setDefaultTimeout(60_000);
   page.errors = [];
@@ -33,8 +39,8 @@ export async function number(page, list, name) {
   return parseFloat((await fact(page, list, name)).replaceAll(',', '').replace('−', '-'));
 }
 
-/** Drops a file on the page as a browser does: with a DataTransfer that holds it. */
-export async function dropFile(page, name, bytes) {
+/** Drops a file on the page, or on a part of it, as a browser does: with a DataTransfer that holds it. */
+export async function dropFile(page, name, bytes, selector = 'body') {
   const transfer = await page.evaluateHandle(
     ([name, base64]) => {
       const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
@@ -44,8 +50,8 @@ export async function dropFile(page, name, bytes) {
     },
     [name, bytes.toString('base64')],
   );
-  await page.dispatchEvent('body', 'dragover', { dataTransfer: transfer });
-  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+  await page.dispatchEvent(selector, 'dragover', { dataTransfer: transfer });
+  await page.dispatchEvent(selector, 'drop', { dataTransfer: transfer });
 }
 
 /** Sets a slider as a person who lets go of it would. */
@@ -88,4 +94,18 @@ export async function drawnPixels(page) {
     for (let i = 3; i < data.length; i += 4) if (data[i] > 128) drawn++;
     return drawn / (copy.width * copy.height);
   });
+}
+
+/** What the 3D view shows, once it is drawn. */
+export async function picture(page) {
+  // A button under the mouse would look otherwise.
+  await page.mouse.move(0, 0);
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return (await page.locator('#canvas').screenshot()).toString('base64');
+}
+
+/** What a click on a button saves. */
+export async function saved(page, selector) {
+  const [file] = await Promise.all([page.waitForEvent('download'), page.click(selector)]);
+  return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
 }

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { describe, test } from 'node:test';
 import { boxObj, boxStl, sphereXyz } from './models.mjs';
-import { contourAt, drawnPixels, dropFile, fact, number, openPage, sampleHeight, settled, slide } from './page.mjs';
+import { contourAt, drawnPixels, dropFile, fact, number, openPage, picture, sampleHeight, settled, slide } from './page.mjs';
 import { serve } from './serve.mjs';
 import { served } from './site.mjs';
 
@@ -10,14 +10,6 @@ const site = served();
 
 /** A box of 40 × 30 × 20 mm: its layers have an area of 1,200 mm² and a perimeter of 140 mm. */
 const BOX = boxStl([0, 0, 0], [40, 30, 20]);
-
-/** What the 3D view shows, once it is drawn. */
-async function picture(page) {
-  // A button under the mouse would look otherwise.
-  await page.mouse.move(0, 0);
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  return (await page.locator('#canvas').screenshot()).toString('base64');
-}
 
 async function withPage(options, work) {
   const page = await openPage(site.browser, site.server.url, options);
@@ -376,7 +368,7 @@ describe('the keyboard', () => {
     withPage({}, async (page) => {
       const reached = new Set();
       const nameless = [];
-      for (let press = 0; press < 60; press++) {
+      for (let press = 0; press < 160; press++) {
         await page.keyboard.press('Tab');
         const { id, name } = await page.evaluate(() => {
           const element = document.activeElement;
@@ -387,7 +379,7 @@ describe('the keyboard', () => {
         if (id && !name) nameless.push(id);
       }
       assert.deepEqual(nameless, []);
-      for (const id of ['theme', 'sample', 'choose', 'model', 'voxel-resolution', 'voxelize', 'surface', 'print-density', 'prepare', 'canvas', 'fit', 'layer-slider', 'heat']) {
+      for (const id of ['theme', 'sample', 'choose', 'model', 'check', 'repair', 'voxel-resolution', 'voxelize', 'surface', 'offset', 'second-choose', 'print-density', 'prepare', 'canvas', 'fit', 'layer-slider', 'heat', 'distance']) {
         assert.ok(reached.has(id), `Tab reaches ${id}`);
       }
     }));

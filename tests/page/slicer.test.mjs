@@ -1,9 +1,8 @@
 /** Preparing a print on the page: settings, the printer, the preview, and what is saved. */
 import assert from 'node:assert/strict';
-import { readFile } from 'node:fs/promises';
 import { describe, test } from 'node:test';
 import { boxStl } from './models.mjs';
-import { dropFile, fact, openPage, settled, slide } from './page.mjs';
+import { dropFile, fact, openPage, picture, saved as savedBytes, settled, slide } from './page.mjs';
 import { served } from './site.mjs';
 
 const site = served();
@@ -31,16 +30,9 @@ async function prepare(page) {
   await page.waitForSelector('#print-dock:not([hidden])');
 }
 
-/** What the 3D view shows, once it is drawn. */
-async function picture(page) {
-  await page.mouse.move(0, 0);
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  return (await page.locator('#canvas').screenshot()).toString('base64');
-}
-
 async function saved(page, selector) {
-  const [file] = await Promise.all([page.waitForEvent('download'), page.click(selector)]);
-  return { name: file.suggestedFilename(), text: await readFile(await file.path(), 'utf8') };
+  const { name, bytes } = await savedBytes(page, selector);
+  return { name, text: bytes.toString('utf8') };
 }
 
 function loadProfile(page, text) {
@@ -220,7 +212,7 @@ describe('a printer', () => {
       await misfit(page, '^The model is 20 mm wide, the bed 15 mm\\.$');
       assert.ok(await page.isDisabled('#prepare'));
       assert.equal(await page.textContent('#printer-name'), 'small one');
-      await page.click('summary');
+      await page.click('summary:has(#printer-name)');
       assert.equal(await page.inputValue('#printer-width'), '15');
       await page.fill('#printer-width', '60');
       await page.press('#printer-width', 'Enter');

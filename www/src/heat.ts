@@ -1,6 +1,16 @@
-import type { HeatMap } from 'fast-winding';
-import { colourOf, spanOf } from './colour.ts';
-import type { Span } from './colour.ts';
+import type { Rgb } from './ramp.ts';
+
+/** Values over a plane z = constant: w, or distances. */
+export interface PlaneMap {
+  /** Samples along x and y. */
+  readonly counts: readonly [number, number];
+  /** The first sample. */
+  readonly origin: readonly [number, number];
+  readonly spacing: readonly [number, number];
+  readonly z: number;
+  /** x fastest. */
+  readonly values: Float64Array | Float32Array;
+}
 
 /** The rectangle that the samples' cells cover, in the model's x and y. */
 export interface Rectangle {
@@ -8,13 +18,13 @@ export interface Rectangle {
   readonly max: readonly [number, number];
 }
 
-export function heatRectangle({ origin, spacing, counts }: HeatMap): Rectangle {
+export function heatRectangle({ origin, spacing, counts }: PlaneMap): Rectangle {
   const min = [origin[0] - spacing[0] / 2, origin[1] - spacing[1] / 2] as const;
   return { min, max: [min[0] + counts[0] * spacing[0], min[1] + counts[1] * spacing[1]] };
 }
 
-/** w at the sample nearest to (x, y), undefined outside the map. */
-export function heatAt(map: HeatMap, x: number, y: number): number | undefined {
+/** The value at the sample nearest to (x, y), undefined outside the map. */
+export function heatAt(map: PlaneMap, x: number, y: number): number | undefined {
   const i = Math.round((x - map.origin[0]) / map.spacing[0]);
   const j = Math.round((y - map.origin[1]) / map.spacing[1]);
   if (i < 0 || j < 0 || i >= map.counts[0] || j >= map.counts[1]) return undefined;
@@ -22,8 +32,7 @@ export function heatAt(map: HeatMap, x: number, y: number): number | undefined {
 }
 
 /** A canvas of one pixel a sample, its first row the largest y, as pictures have it. */
-export function paintHeat(map: HeatMap, span: Span = spanOf(map.values)): HTMLCanvasElement {
-  const [width, height] = map.counts;
+export function paintMap({ counts: [width, height], values }: PlaneMap, colour: (value: number) => Rgb): HTMLCanvasElement {
   const canvas = document.createElement('canvas');
   canvas.width = width;
   canvas.height = height;
@@ -32,7 +41,7 @@ export function paintHeat(map: HeatMap, span: Span = spanOf(map.values)): HTMLCa
   for (let j = 0; j < height; j++) {
     for (let i = 0; i < width; i++) {
       const pixel = 4 * ((height - 1 - j) * width + i);
-      image.data.set(colourOf(map.values[j * width + i], span), pixel);
+      image.data.set(colour(values[j * width + i]), pixel);
       image.data[pixel + 3] = 255;
     }
   }

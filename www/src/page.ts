@@ -22,6 +22,8 @@ export interface Page {
   engine: FastWinding;
   /** Of the model that is shown. */
   source?: Source;
+  /** Of what it is combined with. */
+  secondSource?: Source;
   /** Pending while a new engine takes the place of one that died. */
   revival?: Promise<void>;
 }

@@ -1,6 +1,12 @@
-import type { Bounds, Cloud, HeatMap, Info, Layer, Mesh, Prepared, Soup, Voxels, Warning } from 'fast-winding';
+import type { Bounds, CheckReport, Cloud, HeatMap, Info, Layer, Prepared, Soup, Voxels, Warning } from 'fast-winding';
+import type { Comparison } from './comparison.ts';
+import type { DefectKind } from './defects.ts';
+import type { PlaneDistances } from './distances.ts';
+import { UNMOVED } from './placement.ts';
+import type { Placement } from './placement.ts';
 import type { MoveKind, Nozzle, Print, Recipe } from './print.ts';
 import type { Problem } from './problem.ts';
+import type { Combined, Offset, Repair, SurfaceMesh } from './results.ts';
 
 /** What is drawn of the model itself: positions relative to `origin`. */
 export interface Geometry {
@@ -46,6 +52,37 @@ export interface PointMeasure {
   readonly values: Float64Array;
 }
 
+/** What the plane is coloured by. */
+export type PlaneColours = 'none' | 'winding' | 'distance';
+
+/** What a model is held against when it is checked. */
+export interface Limits {
+  /** Millimetres. */
+  readonly minimumThickness: number;
+  /** Degrees from the vertical. */
+  readonly overhangAngle: number;
+}
+
+/** The defects that are coloured: all places of a kind, or the camera on one of them. */
+export interface ShownDefect {
+  readonly kind: DefectKind;
+  readonly place?: number;
+}
+
+/** What the model is combined with. */
+export interface Second {
+  readonly name: string;
+  readonly shape: Soup | Cloud;
+  readonly geometry: Geometry;
+  readonly bounds: Bounds;
+}
+
+export type GizmoMode = 'translate' | 'rotate' | 'scale';
+
+/** Formats that meshes are saved in. */
+export const MESH_FORMATS = ['stl', 'obj', 'ply', '3mf'] as const;
+export type MeshFormat = (typeof MESH_FORMATS)[number];
+
 export interface Job {
   readonly label: string;
   readonly stage: string;
@@ -54,7 +91,9 @@ export interface Job {
   readonly canCancel: boolean;
 }
 
-export const ITEMS = ['model', 'boundary', 'normals', 'layer', 'voxels', 'surface', 'print'] as const;
+export const ITEMS = [
+  'model', 'boundary', 'normals', 'layer', 'defects', 'repaired', 'voxels', 'difference', 'surface', 'offset', 'second', 'combined', 'print',
+] as const;
 /** What can be shown or hidden in the 3D view. */
 export type Item = (typeof ITEMS)[number];
 
@@ -64,10 +103,26 @@ export interface State {
   plane: Plane;
   layer?: Timed<Layer>;
   heat?: Timed<HeatMap>;
-  heatWanted: boolean;
+  distances?: Timed<PlaneDistances>;
+  planeColours: PlaneColours;
   cutAway: boolean;
   voxels?: Timed<Voxels>;
-  surface?: Timed<Mesh>;
+  surface?: Timed<SurfaceMesh>;
+  /** What is wrong with the model as it is. */
+  report?: Timed<CheckReport>;
+  limits: Limits;
+  defect?: ShownDefect;
+  repair?: Timed<Repair>;
+  offset?: Timed<Offset>;
+  second?: Second;
+  /** Of the second model. */
+  placement: Placement;
+  gizmo: GizmoMode;
+  combined?: Timed<Combined>;
+  /** Ways of making voxels, side by side. */
+  comparison?: Comparison;
+  /** What meshes are saved as. */
+  meshFormat: MeshFormat;
   /** Normals that are being estimated, as they are now. */
   settling?: Float32Array;
   /** What the points are coloured by. */
@@ -93,15 +148,41 @@ export interface State {
 export function initialState(): State {
   return {
     plane: { index: 0, count: 0, layerHeight: 1 },
-    heatWanted: false,
+    planeColours: 'none',
+    limits: { minimumThickness: 0.8, overhangAngle: 50 },
+    placement: UNMOVED,
+    gizmo: 'translate',
+    meshFormat: 'stl',
     halves: false,
     cutAway: false,
     nozzle: { layer: 0, moves: 0 },
     onlyLayer: false,
     isPlaying: false,
     hiddenMoves: new Set(['travel'] as const),
-    visible: { model: true, boundary: true, normals: false, layer: true, voxels: true, surface: true, print: true },
+    visible: { ...allOf(true), normals: false },
   };
+}
+
+/** What is made of a model, when it is new: nothing. */
+export const NOTHING_MADE = {
+  layer: undefined,
+  heat: undefined,
+  distances: undefined,
+  voxels: undefined,
+  comparison: undefined,
+  surface: undefined,
+  report: undefined,
+  defect: undefined,
+  repair: undefined,
+  offset: undefined,
+  combined: undefined,
+  measure: undefined,
+  print: undefined,
+  isPlaying: false,
+} as const satisfies Partial<State>;
+
+export function allOf(isVisible: boolean): Record<Item, boolean> {
+  return Object.fromEntries(ITEMS.map((item) => [item, isVisible])) as Record<Item, boolean>;
 }
 
 /** Height of the cutting plane, in the model's coordinates. */

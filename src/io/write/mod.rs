@@ -34,6 +34,8 @@ pub enum MeshFormat {
     Ply,
     /// Text, exact.
     Off,
+    /// Packed text, exact; vertices in the same place become one.
+    ThreeMf,
 }
 
 /// A format that points can be written in.
@@ -48,7 +50,7 @@ pub enum CloudFormat {
 /// Writes triangles. Vertices that no triangle uses are kept, for the indices; if not finite, as zero.
 ///
 /// # Errors
-/// If and only if `out` refuses to be written to.
+/// If and only if `out` refuses to be written to, or 3MF would be larger than 4 GiB.
 pub fn write_soup(soup: &TriangleSoup, format: MeshFormat, out: &mut impl Write) -> io::Result<()> {
     let mut out = BufWriter::new(out);
     match format {
@@ -56,6 +58,7 @@ pub fn write_soup(soup: &TriangleSoup, format: MeshFormat, out: &mut impl Write)
         MeshFormat::Obj => obj::write(soup, &mut out),
         MeshFormat::Ply => ply::write_soup(soup, &mut out),
         MeshFormat::Off => off::write(soup, &mut out),
+        MeshFormat::ThreeMf => threemf::write_mesh_3mf(soup, &mut out),
     }?;
     out.flush()
 }

@@ -1,9 +1,9 @@
-//! 3MF with the slice extension (3MF Consortium, *Slice Extension* 1.0): the layers as a stack of slices, and beside it the mesh that
-//! every object has to have.
+//! 3MF (3MF Consortium, *Core Specification* 1.2): a mesh; and with the slice extension (*Slice Extension* 1.0) the layers as a stack
+//! of slices, and beside it the mesh that every object has to have.
 use super::{Shortest, rings, vertices};
 use crate::data::{Layer, Ring, TriangleSoup};
 use crate::io::threemf::Packer;
-use crate::math::Vec2;
+use crate::math::{Vec2, Vec3};
 use rustc_hash::FxHashMap;
 use std::io::{self, BufWriter, Write};
 
@@ -63,19 +63,37 @@ pub fn write_layers_3mf(
     out: &mut impl Write,
 ) -> Result<(), SliceStackError> {
     check(layers)?;
-    if triangles(mesh).next().is_none() {
+    if !mesh.triangles().iter().any(is_written) {
         return Err(SliceStackError::NoMesh);
     }
+    Ok(pack(out, |out| write_model(layers, mesh, resolution, out))?)
+}
+
+/// Writes triangles as a 3MF package, in millimetres and exact. Vertices in the same place are one; triangles that use one twice
+/// are left out.
+#[inline(never)]
+pub(super) fn write_mesh_3mf(mesh: &TriangleSoup, out: &mut impl Write) -> io::Result<()> {
+    pack(out, |out| {
+        writeln!(out, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
+        writeln!(out, r#"<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}">"#)?;
+        writeln!(out, "<resources>\n<object id=\"1\" type=\"model\">")?;
+        write_mesh(mesh, out)?;
+        writeln!(out, "</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>")
+    })
+}
+
+/// The package around what `write_model` writes.
+fn pack(out: &mut impl Write, write_model: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut packer = Packer::new(BufWriter::new(out));
     packer.file("[Content_Types].xml", |out| out.write_all(CONTENT_TYPES.as_bytes()))?;
     packer.file("_rels/.rels", |out| out.write_all(RELATIONSHIPS.as_bytes()))?;
     packer.file("3D/3dmodel.model", |out| {
         // Packing takes its time for each piece, however short.
         let mut out = BufWriter::new(out);
-        write_model(layers, mesh, resolution, &mut out)?;
+        write_model(&mut out)?;
         out.flush()
     })?;
-    Ok(packer.finish()?)
+    packer.finish()
 }
 
 fn check(layers: &[Layer]) -> Result<(), SliceStackError> {
@@ -93,16 +111,16 @@ fn check(layers: &[Layer]) -> Result<(), SliceStackError> {
     Ok(())
 }
 
-/// Triangles of three different vertices: 3MF allows no others.
-fn triangles(mesh: &TriangleSoup) -> impl Iterator<Item = &[u32; 3]> {
-    mesh.triangles().iter().filter(|[a, b, c]| a != b && b != c && c != a)
+/// Whether a triangle has three different vertices: 3MF allows no others.
+fn is_written([a, b, c]: &[u32; 3]) -> bool {
+    a != b && b != c && c != a
 }
 
 fn write_model(
     layers: &[Layer],
     mesh: &TriangleSoup,
     resolution: MeshResolution,
-    out: &mut impl Write,
+    out: &mut dyn Write,
 ) -> io::Result<()> {
     let (required, resolution) = match resolution {
         MeshResolution::Full => ("", "fullres"),
@@ -120,7 +138,7 @@ fn write_model(
     writeln!(out, "</object>\n</resources>\n<build>\n<item objectid=\"2\"/>\n</build>\n</model>")
 }
 
-fn write_stack(layers: &[Layer], out: &mut impl Write) -> io::Result<()> {
+fn write_stack(layers: &[Layer], out: &mut dyn Write) -> io::Result<()> {
     let bottom = layers.first().map_or(0.0, |layer| layer.z_bottom);
     writeln!(out, r#"<s:slicestack id="1" zbottom="{}">"#, Shortest(bottom))?;
     for layer in layers {
@@ -147,17 +165,35 @@ fn write_stack(layers: &[Layer], out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "</s:slicestack>")
 }
 
-fn write_mesh(mesh: &TriangleSoup, out: &mut impl Write) -> io::Result<()> {
+fn write_mesh(mesh: &TriangleSoup, out: &mut dyn Write) -> io::Result<()> {
+    let (places, numbers) = places_of(mesh);
     writeln!(out, "<mesh>\n<vertices>")?;
-    for p in vertices(mesh) {
+    for p in places {
         let [x, y, z] = p.to_array().map(Shortest);
         writeln!(out, r#"<vertex x="{x}" y="{y}" z="{z}"/>"#)?;
     }
     writeln!(out, "</vertices>\n<triangles>")?;
-    for [a, b, c] in triangles(mesh) {
+    for [a, b, c] in mesh.triangles().iter().map(|t| t.map(|v| numbers[v as usize])).filter(is_written) {
         writeln!(out, r#"<triangle v1="{a}" v2="{b}" v3="{c}"/>"#)?;
     }
     writeln!(out, "</triangles>\n</mesh>")
+}
+
+/// The different places of vertices, in the order of their first, and the number of each vertex's: by their vertices alone readers
+/// know what is connected.
+fn places_of(mesh: &TriangleSoup) -> (Vec<Vec3>, Vec<u32>) {
+    let (mut places, mut known) = (Vec::new(), FxHashMap::default());
+    let numbers = vertices(mesh).map(|p| {
+        let next = places.len() as u32;
+        // 0 is −0.
+        let number = *known.entry((p + Vec3::ZERO).to_array().map(f64::to_bits)).or_insert(next);
+        if number == next {
+            places.push(p);
+        }
+        number
+    });
+    let numbers = numbers.collect();
+    (places, numbers)
 }
 
 /// Rings as indices of vertices that they share.

@@ -23,8 +23,15 @@ async function revive(page: Page): Promise<void> {
 
 async function restart(page: Page): Promise<void> {
   await restartEngine(page);
-  const { source } = page;
-  if (!source) return;
-  const model = await page.jobs.run('Starting again', (options) => load(page, source, options));
-  page.store.set({ model });
+  const { store } = page;
+  const { source, secondSource } = page;
+  // Their shapes were in the engine that is gone.
+  store.set({ repair: undefined, combined: undefined });
+  if (source) {
+    const model = await page.jobs.run('Starting again', (options) => load(page, source, options));
+    store.set({ model });
+  }
+  if (!secondSource || !store.state.second) return;
+  const { shape, geometry, bounds, name } = await page.jobs.run('Starting again', (options) => load(page, secondSource, options));
+  store.set({ second: { shape, geometry, bounds, name } });
 }

@@ -2,6 +2,7 @@ import type { Page, Source, Unit } from '../page.ts';
 import { initialState } from '../state.ts';
 import type { Model } from '../state.ts';
 import { fail } from './fail.ts';
+import { forgotten } from './forget.ts';
 import { load } from './load.ts';
 import { planeFor } from './plane.ts';
 
@@ -40,18 +41,13 @@ export function sampleSource(file: string): Source {
   };
 }
 
-function show({ store }: Page, model: Model): void {
+/** Shows a model in the place of the one before, of which nothing is kept. */
+export function show({ store }: Page, model: Model): void {
   store.state.model?.shape.free();
   store.set({
+    ...forgotten(store.state),
     model,
     plane: planeFor(model.bounds),
     visible: initialState().visible,
-    layer: undefined,
-    heat: undefined,
-    voxels: undefined,
-    surface: undefined,
-    measure: undefined,
-    print: undefined,
-    isPlaying: false,
   });
 }

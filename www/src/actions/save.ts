@@ -1,17 +1,37 @@
-import type { Layer, Mesh } from 'fast-winding';
+import type { Layer, Soup, Voxels } from 'fast-winding';
 import { download, stem } from '../download.ts';
 import type { Page } from '../page.ts';
+import type { Triangles } from '../results.ts';
+import type { MeshFormat } from '../state.ts';
 import { fail } from './fail.ts';
 
-export async function saveMesh(page: Page, mesh: Mesh, suffix: string): Promise<void> {
+const TYPES: Record<MeshFormat, string> = { stl: 'model/stl', obj: 'model/obj', ply: 'application/octet-stream', '3mf': 'model/3mf' };
+
+export async function saveMesh(page: Page, mesh: Triangles, suffix: string, format: MeshFormat): Promise<void> {
   await told(page, async () => {
     const soup = await page.engine.Soup.from({ positions: placed(mesh), indices: mesh.indices });
     try {
-      download(await soup.export('stl'), `${nameOf(page)}-${suffix}.stl`, 'model/stl');
+      download(await soup.export(format), `${nameOf(page)}-${suffix}.${format}`, TYPES[format]);
     } finally {
       soup.free();
     }
   });
+}
+
+export async function saveSoup(page: Page, soup: Soup, suffix: string, format: MeshFormat): Promise<void> {
+  await told(page, async () => download(await soup.export(format), `${nameOf(page)}-${suffix}.${format}`, TYPES[format]));
+}
+
+export async function saveVoxels(page: Page, voxels: Voxels, format: 'vox' | 'nrrd'): Promise<void> {
+  await told(page, async () => download(await page.engine.exportVoxels(voxels, format), `${nameOf(page)}-voxels.${format}`, 'application/octet-stream'));
+}
+
+/** What the check found, every list as far as it goes. */
+export function saveReport(page: Page): void {
+  const report = page.store.state.report?.value;
+  if (!report) return;
+  const text = JSON.stringify(report, (_, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Uint32Array)] : value), 1);
+  download(new TextEncoder().encode(`${text}\n`), `${nameOf(page)}-check.json`, 'application/json');
 }
 
 export async function saveLayer(page: Page, layer: Layer): Promise<void> {
@@ -51,7 +71,7 @@ export function saveProfile({ store }: Page): void {
 }
 
 /** Positions with the mesh's origin added, in double precision. */
-function placed({ positions, origin }: Mesh): Float64Array {
+export function placed({ positions, origin }: Triangles): Float64Array {
   return Float64Array.from(positions, (value, i) => value + origin[i % 3]);
 }
 

@@ -1,4 +1,5 @@
 import { byId } from '../dom.ts';
+import { MADE_LABELS, madeOf } from '../made.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
 
@@ -6,13 +7,13 @@ import type { Store } from '../store.ts';
 export function halvesButton(store: Store<State>): void {
   const button = byId<HTMLButtonElement>('halves');
   button.addEventListener('click', () => store.set({ halves: !store.state.halves }));
-  store.on(['voxels', 'surface', 'halves'], ({ voxels, surface, halves }) => {
-    const made = surface ? 'Surface' : voxels ? 'Voxels' : undefined;
+  store.on(['repair', 'combined', 'offset', 'voxels', 'surface', 'visible', 'halves'], (state) => {
+    const made = madeOf(state);
     button.disabled = !made;
-    button.title = made ? '' : 'Needs a surface or voxels: make them first';
-    button.setAttribute('aria-pressed', String(halves));
-    byId('half-names').hidden = !halves;
-    byId('half-made').textContent = made ?? '';
-    if (!made && halves) store.set({ halves: false });
+    button.title = made ? '' : 'Needs a surface or another result: make one first';
+    button.setAttribute('aria-pressed', String(state.halves));
+    byId('half-names').hidden = !state.halves;
+    byId('half-made').textContent = made ? MADE_LABELS[made] : '';
+    if (!made && state.halves) store.set({ halves: false });
   });
 }

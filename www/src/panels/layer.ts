@@ -15,10 +15,17 @@ export function layerPanel(page: Page): void {
   const slider = byId<HTMLInputElement>('layer-slider');
   const height = byId<HTMLInputElement>('layer-height');
   const heat = byId<HTMLInputElement>('heat');
+  const distance = byId<HTMLInputElement>('distance');
   const cut = byId<HTMLInputElement>('cut');
 
   slider.addEventListener('input', () => store.set({ plane: { ...store.state.plane, index: slider.valueAsNumber } }));
-  heat.addEventListener('change', () => store.set({ heatWanted: heat.checked }));
+  // One colour at a time.
+  heat.addEventListener('change', () => store.set({ planeColours: heat.checked ? 'winding' : 'none' }));
+  distance.addEventListener('change', () => store.set({ planeColours: distance.checked ? 'distance' : 'none' }));
+  store.on(['planeColours'], ({ planeColours }) => {
+    heat.checked = planeColours === 'winding';
+    distance.checked = planeColours === 'distance';
+  });
   cut.addEventListener('change', () => store.set({ cutAway: cut.checked }));
   byId('layer-download').addEventListener('click', () => {
     const layer = store.state.layer?.value;
@@ -33,7 +40,7 @@ export function layerPanel(page: Page): void {
 
   store.on(['plane', 'model'], ({ plane, model }) => {
     const isUsable = model?.oriented ?? false;
-    slider.disabled = height.disabled = heat.disabled = cut.disabled = !isUsable;
+    slider.disabled = height.disabled = heat.disabled = distance.disabled = cut.disabled = !isUsable;
     slider.max = String(Math.max(0, plane.count - 1));
     slider.valueAsNumber = plane.index;
     height.value = String(plane.layerHeight);
@@ -43,10 +50,10 @@ export function layerPanel(page: Page): void {
     byId('layer-out').textContent = model ? `layer ${count(plane.index + 1)} of ${count(plane.count)}` : '';
     byId('layer-z').textContent = model ? `z = ${fixedHeight(z, model.bounds)} mm` : '';
   });
-  store.on(['layer', 'heat', 'model'], showFacts);
+  store.on(['layer', 'heat', 'distances', 'model'], showFacts);
 }
 
-function showFacts({ layer, heat, model }: State): void {
+function showFacts({ layer, heat, distances, model }: State): void {
   byId<HTMLButtonElement>('layer-download').disabled = !layer;
   if (!layer) {
     const reason = model && !model.oriented ? ([['Layer', 'needs normals']] as const) : [];
@@ -59,6 +66,7 @@ function showFacts({ layer, heat, model }: State): void {
     ['Perimeter', `${significant(perimeterOf(value))} mm`],
     ['Layer computed', milliseconds(time)],
     ...(heat ? ([['Heat map computed', milliseconds(heat.milliseconds)]] as const) : []),
+    ...(distances ? ([['Distances computed', milliseconds(distances.milliseconds)]] as const) : []),
   ]);
 }
 

@@ -1,6 +1,8 @@
 import { SAMPLES } from '../../samples/catalogue.ts';
 import { fileSource, open, reopen, sampleSource } from '../actions/open.ts';
+import { openSecond } from '../actions/second.ts';
 import { byId, setFacts } from '../dom.ts';
+import { acceptDrops } from '../drop.ts';
 import { bytes, count, milliseconds, significant } from '../format.ts';
 import type { Page, Unit } from '../page.ts';
 import { sentence } from '../problem.ts';
@@ -61,7 +63,7 @@ export function modelControls(page: Page): void {
   unit.addEventListener('change', () => void reopen(page, unit.value as Unit));
   page.store.on(['model', 'job'], ({ model, job }) => {
     if (!model || job) return;
-    byId('unit-field').hidden = model.shape.format === '3mf';
+    byId('unit-field').hidden = ['3mf', 'arrays'].includes(model.shape.format);
     unit.value = page.source?.unit ?? 'millimeter';
   });
 
@@ -71,7 +73,7 @@ export function modelControls(page: Page): void {
     if (input.files?.[0]) void open(page, fileSource(input.files[0]));
     input.value = '';
   });
-  acceptDrops((file) => void open(page, fileSource(file)));
+  acceptDrops((file, isSecond) => void (isSecond ? openSecond(page, file) : open(page, fileSource(file))));
 }
 
 function factsOf({ shape, geometry, bounds, prepared, readMilliseconds, oriented }: Model): [string, string][] {
@@ -91,25 +93,4 @@ function factsOf({ shape, geometry, bounds, prepared, readMilliseconds, oriented
   facts.push(['Read', milliseconds(readMilliseconds)]);
   if (prepared) facts.push(['Field built', `${milliseconds(prepared.milliseconds)}, ${bytes(prepared.bytes)}`]);
   return facts;
-}
-
-/** A file may be dropped anywhere on the page; a veil shows that it will be taken. */
-function acceptDrops(take: (file: File) => void): void {
-  const veil = byId('drop-veil');
-  const hasFile = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
-  addEventListener('dragover', (event) => {
-    if (!hasFile(event)) return;
-    event.preventDefault();
-    veil.hidden = false;
-  });
-  addEventListener('dragleave', (event) => {
-    if (event.relatedTarget === null) veil.hidden = true;
-  });
-  addEventListener('drop', (event) => {
-    veil.hidden = true;
-    if (!hasFile(event)) return;
-    event.preventDefault();
-    const file = event.dataTransfer?.files[0];
-    if (file) take(file);
-  });
 }

@@ -1,8 +1,13 @@
-import type { Bounds } from 'fast-winding';
+import type { Bounds, HeatMap } from 'fast-winding';
 import { pathOf } from '../contour.ts';
 import { byId } from '../dom.ts';
 import { niceBelow, significant } from '../format.ts';
-import { heatAt, heatRectangle, paintHeat } from '../heat.ts';
+import { colourOf, spanOf } from '../colour.ts';
+import { distanceColour, isoline, levelsOf, scaleOf } from '../distances.ts';
+import type { PlaneDistances } from '../distances.ts';
+import { heatAt, heatRectangle, paintMap } from '../heat.ts';
+import type { PlaneMap } from '../heat.ts';
+import type { Rgb } from '../ramp.ts';
 import { diagonal } from '../state.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
@@ -13,7 +18,7 @@ const MARGIN = 0.08;
 const TALLEST = 1.1;
 const FLATTEST = 2;
 
-/** The layer from above: contours as vectors, the heat map under them, and w under the pointer. */
+/** The layer from above: contours as vectors, w or distances as colours under them, and their value under the pointer. */
 export function planPanel(store: Store<State>): void {
   const svg = byId<SVGSVGElement>('plan-svg');
   const plan = byId('plan');
@@ -31,9 +36,9 @@ export function planPanel(store: Store<State>): void {
   };
   new ResizeObserver(showRuler).observe(plan);
 
-  store.on(['model', 'layer', 'heat', 'visible'], (state) => {
+  store.on(['model', 'layer', 'heat', 'distances', 'visible'], (state) => {
     svg.innerHTML = drawing(state);
-    plan.classList.toggle('heated', state.heat !== undefined);
+    plan.classList.toggle('heated', state.heat !== undefined || state.distances !== undefined);
     showRuler();
   });
 
@@ -58,7 +63,7 @@ function windowOf({ min, max }: Bounds): { x: number; y: number; width: number; 
   return { x: (min[0] + max[0] - width) / 2, y: -(min[1] + max[1] + height) / 2, width, height };
 }
 
-function drawing({ model, layer, heat }: State): string {
+function drawing({ model, layer, heat, distances }: State): string {
   if (!model) return '';
   const { x, y, width, height } = windowOf(model.bounds);
   byId('plan-svg').setAttribute('viewBox', `${x} ${y} ${width} ${height}`);
@@ -66,18 +71,39 @@ function drawing({ model, layer, heat }: State): string {
   const { min, max } = model.bounds;
   const frame = `<rect class="frame" x="${min[0]}" y="${-max[1]}" width="${max[0] - min[0]}" height="${max[1] - min[1]}"/>`;
   const path = layer ? pathOf(layer.value) : '';
-  const image = heat ? heatImage(heat.value) : '';
+  const image = heat ? windingImage(heat.value) : distances ? distanceImage(distances.value) : '';
   return `${image}${frame}<path class="region" fill-rule="evenodd" d="${path}"/><path class="contour" data-z="${layer?.value.zSample ?? ''}" d="${path}"/>`;
 }
 
-function heatImage(map: Parameters<typeof paintHeat>[0]): string {
-  const { min, max } = heatRectangle(map);
-  return `<image x="${min[0]}" y="${-max[1]}" width="${max[0] - min[0]}" height="${max[1] - min[1]}" preserveAspectRatio="none" href="${paintHeat(map).toDataURL()}"/>`;
+function windingImage(map: HeatMap): string {
+  const span = spanOf(map.values);
+  return imageOf(map, (value) => colourOf(value, span));
 }
 
-function describe({ heat, model }: State, x: number, y: number): string {
+/** The colours, and lines along which distances are equal. */
+function distanceImage(map: PlaneDistances): string {
+  const scale = scaleOf(map);
+  const lines = levelsOf(scale).map((level) => `<path class="${level === 0 ? 'isoline zero' : 'isoline'}" data-level="${level}" d="${segmentsPath(isoline(map, level))}"/>`);
+  return imageOf(map, (value) => distanceColour(value, scale)) + lines.join('');
+}
+
+function imageOf(map: PlaneMap, colour: (value: number) => Rgb): string {
+  const { min, max } = heatRectangle(map);
+  return `<image x="${min[0]}" y="${-max[1]}" width="${max[0] - min[0]}" height="${max[1] - min[1]}" preserveAspectRatio="none" href="${paintMap(map, colour).toDataURL()}"/>`;
+}
+
+/** Segments xyxy…, y pointing up turned to y pointing down. */
+function segmentsPath(ends: readonly number[]): string {
+  let path = '';
+  for (let i = 0; i < ends.length; i += 4) path += `M${ends[i].toFixed(4)} ${(-ends[i + 1]).toFixed(4)}L${ends[i + 2].toFixed(4)} ${(-ends[i + 3]).toFixed(4)}`;
+  return path;
+}
+
+function describe({ heat, distances, model }: State, x: number, y: number): string {
   const decimals = Math.max(0, 2 - Math.floor(Math.log10(diagonal(model!.bounds) || 1)));
   const place = `x ${x.toFixed(decimals)}  y ${y.toFixed(decimals)}`;
   const w = heat && heatAt(heat.value, x, y);
-  return w === undefined ? place : `${place}  w ${w.toFixed(3)}`;
+  if (w !== undefined) return `${place}  w ${w.toFixed(3)}`;
+  const distance = distances && heatAt(distances.value, x, y);
+  return distance === undefined ? place : `${place}  d ${distance.toFixed(decimals)} mm`;
 }

@@ -10,8 +10,9 @@ export function showPanel(store: Store<State>): void {
   const back = legendOfBackFaces();
   byId('toggles').append(back);
   store.on([...EVERY], (state) => {
-    for (const [item, { input, text, swatch }] of boxes) {
+    for (const [item, { row, input, text, swatch }] of boxes) {
       const { isThere, label, token } = describe(state, item);
+      row.hidden = !isThere && NEWER.has(item);
       input.disabled = !isThere;
       input.checked = isThere && state.visible[item];
       text.textContent = label;
@@ -21,7 +22,10 @@ export function showPanel(store: Store<State>): void {
   });
 }
 
-const EVERY = ['model', 'layer', 'voxels', 'surface', 'print', 'visible'] as const satisfies readonly (keyof State)[];
+/** Shown in the list only when they are there. */
+const NEWER: ReadonlySet<Item> = new Set(['defects', 'repaired', 'difference', 'offset', 'second', 'combined'] as const);
+
+const EVERY = ['model', 'layer', 'defect', 'repair', 'voxels', 'comparison', 'surface', 'offset', 'second', 'combined', 'print', 'visible'] as const satisfies readonly (keyof State)[];
 
 interface Toggle {
   readonly row: HTMLElement;
@@ -46,7 +50,7 @@ function toggle(store: Store<State>, item: Item): Toggle {
   return { row, input, text, swatch };
 }
 
-function describe({ model, layer, voxels, surface, print }: State, item: Item): { isThere: boolean; label: string; token: string } {
+function describe({ model, layer, defect, repair, voxels, comparison, surface, offset, second, combined, print }: State, item: Item): { isThere: boolean; label: string; token: string } {
   const isCloud = model?.shape.kind === 'cloud';
   switch (item) {
     case 'model':
@@ -61,6 +65,18 @@ function describe({ model, layer, voxels, surface, print }: State, item: Item): 
       return { isThere: voxels !== undefined, label: 'Voxels', token: '--view-voxels' };
     case 'surface':
       return { isThere: surface !== undefined, label: 'Surface', token: '--view-surface' };
+    case 'defects':
+      return { isThere: defect !== undefined, label: 'Defects', token: '--view-defect' };
+    case 'repaired':
+      return { isThere: repair !== undefined, label: 'Repaired', token: '--view-repaired' };
+    case 'difference':
+      return { isThere: comparison !== undefined, label: 'Wrong voxels', token: '--view-gained' };
+    case 'offset':
+      return { isThere: offset !== undefined, label: offset?.value.kind === 'hollow' ? 'Hollow' : 'Offset', token: '--view-offset' };
+    case 'second':
+      return { isThere: second !== undefined, label: 'Second model', token: '--view-second' };
+    case 'combined':
+      return { isThere: combined !== undefined, label: 'Combined', token: '--view-front' };
     case 'print':
       return { isThere: print !== undefined, label: 'Print', token: '--print-outer-wall' };
   }

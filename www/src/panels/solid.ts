@@ -1,10 +1,14 @@
 import type { SurfaceOptions } from 'fast-winding';
-import { saveMesh } from '../actions/save.ts';
+import { adopt } from '../actions/adopt.ts';
+import { saveMesh, saveVoxels } from '../actions/save.ts';
 import { makeSurface, makeVoxels } from '../actions/solid.ts';
-import { byId, paintSlider, setFacts } from '../dom.ts';
+import { byId, setFacts } from '../dom.ts';
 import { count, milliseconds, volume } from '../format.ts';
 import type { Page } from '../page.ts';
-import type { State } from '../state.ts';
+import type { MeshFormat } from '../state.ts';
+import { comparisonPanel } from './comparison.ts';
+import { formatMenu, saver } from './saver.ts';
+import { cells, slider } from './slider.ts';
 import { enableWhenUsable, reveal } from './usable.ts';
 
 /** Points drawn by lot leave no holes between them within so many of their distances. */
@@ -19,13 +23,15 @@ export function voxelPanel(page: Page): void {
   };
   resolution.addEventListener('input', describe);
   store.on(['model'], describe);
-  byId('voxelize').addEventListener('click', () => void makeVoxels(page, resolution.valueAsNumber, threshold.valueAsNumber));
-  byId('voxel-download').addEventListener('click', () => {
-    const mesh = store.state.voxels?.value.surface;
-    if (mesh) void saveMesh(page, mesh, 'voxels');
+  const method = comparisonPanel(page, () => ({ resolution: resolution.valueAsNumber, threshold: threshold.valueAsNumber }));
+  byId('voxelize').addEventListener('click', () => void makeVoxels(page, method(), resolution.valueAsNumber, threshold.valueAsNumber));
+  formatMenu(page, 'voxel-download', ['vox', 'nrrd'], (state) => state.voxels !== undefined, (format) => {
+    const voxels = store.state.voxels?.value;
+    if (!voxels) return;
+    if (format === 'vox' || format === 'nrrd') void saveVoxels(page, voxels, format);
+    else if (voxels.surface) void saveMesh(page, voxels.surface, 'voxels', format as MeshFormat);
   });
   store.on(['voxels'], ({ voxels }) => {
-    byId<HTMLButtonElement>('voxel-download').disabled = !voxels;
     setFacts(
       byId('voxel-facts'),
       voxels
@@ -68,12 +74,16 @@ export function surfacePanel(page: Page): void {
     if (store.state.model?.shape.kind !== 'cloud') return fixed;
     return { ...fixed, smoothing: smoothing.valueAsNumber || undefined, trim: trim.checked ? TRIM : undefined };
   }
-  byId('surface-download').addEventListener('click', () => {
+  saver(page, 'surface-download', (state) => state.surface !== undefined, (format) => {
     const mesh = store.state.surface?.value;
-    if (mesh) void saveMesh(page, mesh, 'surface');
+    if (mesh) void saveMesh(page, mesh, 'surface', format);
   });
+  byId('surface-use').addEventListener('click', () => {
+    const mesh = store.state.surface?.value;
+    if (mesh) void adopt(page, mesh, 'surface');
+  });
+  enableWhenUsable(page, byId<HTMLButtonElement>('surface-use'), (state) => state.surface !== undefined);
   store.on(['surface'], ({ surface }) => {
-    byId<HTMLButtonElement>('surface-download').disabled = !surface;
     setFacts(
       byId('surface-facts'),
       surface
@@ -87,26 +97,4 @@ export function surfacePanel(page: Page): void {
     if (surface) reveal('surface-facts');
   });
   enableWhenUsable(page, byId<HTMLButtonElement>('surface'));
-}
-
-/** A slider whose value is written beside it. */
-function slider(id: string): HTMLInputElement {
-  const input = byId<HTMLInputElement>(id);
-  const show = (): void => {
-    byId(`${id}-out`).textContent = input.value;
-    paintSlider(input);
-  };
-  input.addEventListener('input', show);
-  show();
-  return input;
-}
-
-/** How many cubic cells a resolution along the longest side means for the model. */
-function cells({ model }: State, resolution: number): string {
-  if (!model) return '';
-  const { min, max } = model.bounds;
-  const sides = [0, 1, 2].map((k) => max[k] - min[k]);
-  const cell = Math.max(...sides) / resolution;
-  const counts = sides.map((side) => Math.max(1, Math.ceil(side / cell - 1e-9)));
-  return `${counts.map(count).join(' × ')} cells of ${cell.toPrecision(3)} mm`;
 }

@@ -16,6 +16,8 @@ const DIRECTIONS: Record<Direction, Vector3> = {
   front: new Vector3(0, -1, 0),
   side: new Vector3(1, 0, 0),
 };
+/** Part of a direction that is level, at least. */
+const LEAST_LEVEL = 0.3;
 /** Room left around the box. */
 const MARGIN = 1.07;
 
@@ -27,9 +29,10 @@ export interface CameraPlace {
 }
 
 /** The nearest place from which all corners of the box are in view. */
-export function cameraFor(box: Box, camera: PerspectiveCamera, target: Vector3, direction?: Direction): CameraPlace {
+export function cameraFor(box: Box, camera: PerspectiveCamera, target: Vector3, direction?: Direction | Vector3): CameraPlace {
   const centre = new Vector3(...box.min).add(new Vector3(...box.max)).multiplyScalar(0.5);
-  const back = direction ? DIRECTIONS[direction].clone() : new Vector3().subVectors(camera.position, target);
+  const given = typeof direction === 'string' ? DIRECTIONS[direction] : direction;
+  const back = given ? given.clone() : new Vector3().subVectors(camera.position, target);
   if (back.lengthSq() === 0) back.copy(DIRECTIONS.corner);
   back.normalize();
   const right = new Vector3().crossVectors(camera.up, back).normalize();
@@ -51,6 +54,16 @@ export function cameraFor(box: Box, camera: PerspectiveCamera, target: Vector3, 
     near: Math.max(distance, radius) / 500,
     far: (distance + radius) * 20,
   };
+}
+
+/** Where to look from at what faces that way: aslant, as the camera is, if straight up or down; "up" is undefined there. */
+export function sideOf(facing: readonly number[], arm: Vector3): Vector3 {
+  const side = new Vector3(facing[0], facing[1], facing[2]).normalize();
+  const level = Math.hypot(side.x, side.y);
+  if (level >= LEAST_LEVEL) return side;
+  const across = new Vector3(arm.x, arm.y, 0);
+  if (across.lengthSq() === 0) across.copy(DIRECTIONS.front);
+  return side.addScaledVector(across.normalize(), LEAST_LEVEL);
 }
 
 function cornersOf({ min, max }: Box): Vector3[] {

@@ -1,10 +1,13 @@
 import { CanvasTexture, DoubleSide, Mesh, MeshBasicMaterial, PlaneGeometry, Shape, ShapeGeometry, SRGBColorSpace, Vector2 } from 'three';
 import type { Object3D } from 'three';
-import type { HeatMap, Layer } from 'fast-winding';
+import type { Layer } from 'fast-winding';
 import { forEachEdge, ringsOf } from '../contour.ts';
 import { token } from '../dom.ts';
-import { heatRectangle, paintHeat } from '../heat.ts';
-import type { Rectangle } from '../heat.ts';
+import { distanceColour, isoline, levelsOf, scaleOf } from '../distances.ts';
+import type { PlaneDistances } from '../distances.ts';
+import { heatRectangle, paintMap } from '../heat.ts';
+import type { PlaneMap, Rectangle } from '../heat.ts';
+import type { Rgb } from '../ramp.ts';
 import { thickLines, thinLines } from './lines.ts';
 import type { Surroundings } from './part.ts';
 
@@ -43,10 +46,24 @@ export function contourLines(layer: Layer, { origin }: Surroundings, isOnHeat: b
   return isOnHeat ? [lines] : [lines, section(layer, origin)];
 }
 
-/** The heat map, coloured, lying at its height. */
-export function heatPane(map: HeatMap, { origin }: Surroundings): Mesh {
+/** The distances, coloured, and lines along which they are equal. */
+export function distancePane(map: PlaneDistances, surroundings: Surroundings): Object3D[] {
+  const scale = scaleOf(map);
+  const { origin } = surroundings;
+  const ends: number[] = [];
+  for (const level of levelsOf(scale)) {
+    const line = isoline(map, level);
+    for (let i = 0; i < line.length; i += 2) ends.push(line[i] - origin[0], line[i + 1] - origin[1], map.z - origin[2]);
+  }
+  const lines = thinLines(new Float32Array(ends), '--view-on-heat', [], 0.7);
+  lines.renderOrder = 2;
+  return [mapPane(map, (value) => distanceColour(value, scale), surroundings), lines];
+}
+
+/** A map of the plane, coloured, lying at its height. */
+export function mapPane(map: PlaneMap, colour: (value: number) => Rgb, { origin }: Surroundings): Mesh {
   const { min, max } = heatRectangle(map);
-  const texture = new CanvasTexture(paintHeat(map));
+  const texture = new CanvasTexture(paintMap(map, colour));
   texture.colorSpace = SRGBColorSpace;
   const pane = new Mesh(
     new PlaneGeometry(max[0] - min[0], max[1] - min[1]),

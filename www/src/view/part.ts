@@ -1,4 +1,4 @@
-import { Group, Plane } from 'three';
+import { Group, InstancedMesh, Plane } from 'three';
 import type { BufferGeometry, Material, Mesh, Object3D } from 'three';
 
 /** What the parts of the view share. */
@@ -23,6 +23,7 @@ export class Part {
 function release(object: Object3D): void {
   object.traverse((child) => {
     const { geometry, material } = child as Partial<Mesh<BufferGeometry, Material & { map?: { dispose(): void } | null }>>;
+    if (child instanceof InstancedMesh) child.dispose();
     geometry?.dispose();
     material?.map?.dispose();
     material?.dispose();

@@ -1,7 +1,7 @@
 import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { cameraFor } from './framing.ts';
-import type { Box, Direction } from './framing.ts';
+import { cameraFor, sideOf } from './framing.ts';
+import type { Box, CameraPlace, Direction } from './framing.ts';
 
 /** Angle that one press of an arrow key turns the camera. */
 const TURN_RADIANS = Math.PI / 24;
@@ -70,11 +70,30 @@ export class Stage {
     this.#beforeDraw.push(call);
   }
 
-  /** Looks at the whole box; from where the camera is unless a direction is given. */
+  get canvas(): HTMLCanvasElement {
+    return this.#renderer.domElement;
+  }
+
+  /** Keeps the camera where it is, while something else follows the pointer. */
+  hold(isHeld: boolean): void {
+    this.#controls.enabled = !isHeld;
+  }
+
+  /** Looks at the whole box, from now on what there is; from where the camera is unless a direction is given. */
   frame(box: Box | undefined = this.#box, direction?: Direction): void {
     if (!box) return;
     this.#box = box;
-    const { position, target, near, far } = cameraFor(box, this.camera, this.#controls.target, direction);
+    this.#go(cameraFor(box, this.camera, this.#controls.target, direction));
+  }
+
+  /** Looks at a part of what there is, from the side that it faces if that is given. */
+  look(part: Box, facing?: readonly number[]): void {
+    const place = cameraFor(part, this.camera, this.#controls.target, facing && sideOf(facing, this.#arm()));
+    const whole = cameraFor(this.#box ?? part, this.camera, this.#controls.target);
+    this.#go({ ...place, far: Math.max(place.far, whole.far) });
+  }
+
+  #go({ position, target, near, far }: CameraPlace): void {
     this.camera.position.copy(position);
     this.camera.near = near;
     this.camera.far = far;
@@ -124,8 +143,13 @@ export class Stage {
     event.preventDefault();
   }
 
+  /** From what is looked at to the camera. */
+  #arm(): Vector3 {
+    return new Vector3().subVectors(this.camera.position, this.#controls.target);
+  }
+
   #turn(around: number, over: number): void {
-    const arm = new Vector3().subVectors(this.camera.position, this.#controls.target);
+    const arm = this.#arm();
     const polar = Math.acos(arm.z / arm.length());
     const turned = Math.min(Math.PI - POLE_RADIANS, Math.max(POLE_RADIANS, polar + over));
     const azimuth = Math.atan2(arm.y, arm.x) + around;
@@ -137,7 +161,7 @@ export class Stage {
   }
 
   #zoom(factor: number): void {
-    const arm = new Vector3().subVectors(this.camera.position, this.#controls.target);
+    const arm = this.#arm();
     this.camera.position.addVectors(this.#controls.target, arm.multiplyScalar(factor));
     this.#controls.update();
     this.draw();

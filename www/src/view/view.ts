@@ -1,31 +1,45 @@
 import { Plane, Vector3 } from 'three';
-import type { Mesh as ThreeMesh } from 'three';
-import type { Mesh } from 'fast-winding';
+import { colourOf, spanOf } from '../colour.ts';
 import { byId } from '../dom.ts';
 import { shadesOf } from '../measure.ts';
 import { significant } from '../format.ts';
-import { diagonal, planeHeight } from '../state.ts';
-import type { Model, State } from '../state.ts';
+import { diagonal, ITEMS, planeHeight } from '../state.ts';
+import type { Item, Model, State } from '../state.ts';
+import { madeOf } from '../made.ts';
 import type { Store } from '../store.ts';
 import { drawAxes } from './axes.ts';
 import type { Box, Direction } from './framing.ts';
 import { floorUnder } from './grid.ts';
-import { contourLines, heatPane, planePane } from './layer.ts';
+import { Inspector } from './inspector.ts';
+import { contourLines, distancePane, mapPane, planePane } from './layer.ts';
 import { thickLines } from './lines.ts';
 import { twoSidedMesh } from './mesh.ts';
 import { Part } from './part.ts';
+import { Placing } from './placing.ts';
 import { normalsOf, pointsOf } from './points.ts';
 import { Preview } from './preview.ts';
+import { SOLIDS, solidObjects } from './solids.ts';
+import type { Solid } from './solids.ts';
 import { Stage } from './stage.ts';
 
 const BOUNDARY_PIXELS = 2.5;
+
+/** Where in the state each solid is. */
+const SOURCES: Record<Solid, keyof State> = { voxels: 'voxels', surface: 'surface', repaired: 'repair', offset: 'offset', combined: 'combined', difference: 'comparison' };
+/** What is seen with the model when it is beside what was made of it. */
+const BESIDE: readonly Item[] = ['model', 'boundary', 'normals', 'defects', 'second'];
 
 /** The 3D view: shows what the store holds. */
 export class View {
   readonly #store: Store<State>;
   readonly #stage: Stage;
-  readonly #parts = { floor: new Part(), model: new Part(), boundary: new Part(), normals: new Part(), pane: new Part(), heat: new Part(), contours: new Part(), voxels: new Part(), surface: new Part(), print: new Part() };
+  readonly #floor = new Part();
+  readonly #pane = new Part();
+  readonly #heat = new Part();
+  readonly #items = Object.fromEntries(ITEMS.map((item) => [item, new Part()])) as Record<Item, Part>;
   readonly #preview: Preview;
+  readonly #inspector: Inspector;
+  readonly #placing: Placing;
   /** One plane, moved; the list is shared by all materials that are cut. */
   readonly #cutPlane = new Plane(new Vector3(0, 0, -1));
   #cut: Plane[] = [];
@@ -33,8 +47,10 @@ export class View {
   constructor(store: Store<State>) {
     this.#store = store;
     this.#stage = new Stage(byId<HTMLCanvasElement>('canvas'));
-    this.#stage.scene.add(...Object.values(this.#parts).map((part) => part.group));
-    this.#preview = new Preview(store, this.#stage, this.#parts.print);
+    this.#stage.scene.add(...[this.#floor, this.#pane, this.#heat, ...Object.values(this.#items)].map((part) => part.group));
+    this.#preview = new Preview(store, this.#stage, this.#items.print);
+    this.#inspector = new Inspector(store, this.#stage, this.#items.defects);
+    this.#placing = new Placing(store, this.#stage, this.#items.second);
     this.#stage.beforeDraw(() => this.#followCamera());
     this.#followStore();
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-view]')) {
@@ -48,9 +64,10 @@ export class View {
     this.#showModel();
     this.#showPlane();
     this.#showLayer();
-    this.#showSolid('voxels', this.#store.state.voxels?.value.surface);
-    this.#showSolid('surface', this.#store.state.surface?.value);
+    for (const solid of SOLIDS) this.#showSolid(solid);
     this.#preview.refresh();
+    this.#inspector.refresh();
+    this.#placing.refresh();
   }
 
   /** From below, the floor would hide what stands on it. */
@@ -59,7 +76,7 @@ export class View {
     const { model } = this.#store.state;
     if (!model) return;
     drawAxes(byId<SVGElement>('axes'), camera);
-    this.#parts.floor.group.visible = camera.position.z > model.bounds.min[2] - model.geometry.origin[2];
+    this.#floor.group.visible = camera.position.z > model.bounds.min[2] - model.geometry.origin[2];
   }
 
   #followStore(): void {
@@ -80,33 +97,26 @@ export class View {
       this.#cut = this.#store.state.cutAway ? [this.#cutPlane] : [];
       this.refresh();
     });
-    this.#store.on(['plane', 'heat', 'model'], () => this.#showPlane());
-    this.#store.on(['layer', 'heat'], () => this.#showLayer());
-    this.#store.on(['voxels'], ({ voxels }) => this.#showSolid('voxels', voxels?.value.surface));
-    this.#store.on(['surface'], ({ surface }) => this.#showSolid('surface', surface?.value));
+    this.#store.on(['plane', 'heat', 'distances', 'model'], () => this.#showPlane());
+    this.#store.on(['layer', 'heat', 'distances'], () => this.#showLayer());
+    for (const solid of SOLIDS) this.#store.on([SOURCES[solid]], () => this.#showSolid(solid));
     this.#store.on(['visible'], () => this.#showVisible());
   }
 
-  #showVisible(visible = this.#store.state.visible): void {
-    const { model, boundary, normals, pane, heat, contours, voxels, surface, print } = this.#parts;
-    for (const [part, isVisible] of [
-      [model, visible.model], [boundary, visible.boundary], [normals, visible.normals],
-      [pane, visible.layer], [heat, visible.layer], [contours, visible.layer],
-      [voxels, visible.voxels], [surface, visible.surface], [print, visible.print],
-    ] as const) part.group.visible = isVisible;
+  #showVisible(): void {
+    const { visible } = this.#store.state;
+    for (const item of ITEMS) this.#items[item].group.visible = visible[item];
+    this.#pane.group.visible = this.#heat.group.visible = visible.layer;
     this.#stage.draw();
   }
 
-  /** Only the model, or only what was made of it: the surface if there is one. */
+  /** Only the model, or only what was made of it. */
   #showHalf(isMade: boolean): void {
-    const { visible, surface } = this.#store.state;
-    const { model, boundary, normals, pane, heat, contours, voxels, surface: surfacePart, print } = this.#parts;
-    for (const part of [pane, heat, contours, print]) part.group.visible = false;
-    model.group.visible = !isMade;
-    boundary.group.visible = !isMade && visible.boundary;
-    normals.group.visible = !isMade && visible.normals;
-    surfacePart.group.visible = isMade && surface !== undefined;
-    voxels.group.visible = isMade && surface === undefined;
+    const { visible } = this.#store.state;
+    const made = madeOf(this.#store.state);
+    for (const item of ITEMS) this.#items[item].group.visible = isMade ? item === made : BESIDE.includes(item) && visible[item];
+    this.#items.model.group.visible = !isMade;
+    this.#pane.group.visible = this.#heat.group.visible = false;
   }
 
   #showModel(): void {
@@ -118,46 +128,42 @@ export class View {
     const tints = measure && !settling ? shadesOf(measure.values) : undefined;
     const { lines, step } = floorUnder(bounds, origin);
     byId('grid-label').textContent = `grid ${significant(step)} mm`;
-    this.#parts.floor.replace(lines);
+    this.#floor.replace(lines);
     const size = diagonal(bounds);
-    if (indices) this.#parts.model.replace(...twoSidedMesh({ positions, indices }, '--view-front', this.#cut));
-    else this.#parts.model.replace(pointsOf({ positions, normals, tints }, size, this.#cut));
-    this.#parts.boundary.replace(...(boundary.length > 0 ? [thickLines(boundary, '--view-edge', BOUNDARY_PIXELS, this.#cut)] : []));
-    this.#parts.normals.replace(...(normals ? [normalsOf(positions, normals, size, this.#cut)] : []));
+    if (indices) this.#items.model.replace(...twoSidedMesh({ positions, indices }, '--view-front', this.#cut));
+    else this.#items.model.replace(pointsOf({ positions, normals, tints }, size, this.#cut));
+    this.#items.boundary.replace(...(boundary.length > 0 ? [thickLines(boundary, '--view-edge', BOUNDARY_PIXELS, this.#cut)] : []));
+    this.#items.normals.replace(...(normals ? [normalsOf(positions, normals, size, this.#cut)] : []));
     this.#stage.draw();
   }
 
   #showPlane(): void {
-    const { model, plane, heat } = this.#store.state;
-    if (!model?.oriented) return this.#parts.pane.replace();
+    const { model, plane, heat, distances } = this.#store.state;
+    if (!model?.oriented) return this.#pane.replace();
     const { origin } = model.geometry;
     const z = planeHeight(plane, model.bounds);
     this.#cutPlane.constant = z - origin[2];
     const rectangle = { min: [model.bounds.min[0], model.bounds.min[1]], max: [model.bounds.max[0], model.bounds.max[1]] } as const;
-    // A heat map of this height takes the pane's place.
-    this.#parts.pane.replace(...(heat?.value.z === z ? [] : planePane(rectangle, z, origin)));
+    // Colours of this height take the pane's place.
+    this.#pane.replace(...((heat ?? distances)?.value.z === z ? [] : planePane(rectangle, z, origin)));
     this.#stage.draw();
   }
 
   #showLayer(): void {
-    const { model, layer, heat } = this.#store.state;
+    const { model, layer, heat, distances } = this.#store.state;
     const surroundings = { origin: model?.geometry.origin ?? new Float64Array(3), cut: this.#cut };
-    this.#parts.contours.replace(...(layer ? contourLines(layer.value, surroundings, heat !== undefined) : []));
-    this.#parts.heat.replace(...(heat ? [heatPane(heat.value, surroundings)] : []));
+    const isColoured = heat !== undefined || distances !== undefined;
+    this.#items.layer.replace(...(layer ? contourLines(layer.value, surroundings, isColoured) : []));
+    if (heat) {
+      const span = spanOf(heat.value.values);
+      this.#heat.replace(mapPane(heat.value, (value) => colourOf(value, span), surroundings));
+    } else this.#heat.replace(...(distances ? distancePane(distances.value, surroundings) : []));
     this.#stage.draw();
   }
 
-  #showSolid(item: 'voxels' | 'surface', mesh: Mesh | undefined): void {
-    this.#parts[item].replace(...(mesh ? this.#solid(item, mesh) : []));
+  #showSolid(solid: Solid): void {
+    this.#items[solid].replace(...solidObjects(solid, this.#store.state, this.#cut));
     this.#stage.draw();
-  }
-
-  /** Voxels are shaded face by face, a surface smoothly by its normals. */
-  #solid(item: 'voxels' | 'surface', { positions, indices, normals, origin }: Mesh): ThreeMesh[] {
-    const scene = this.#store.state.model?.geometry.origin ?? origin;
-    const meshes = twoSidedMesh({ positions, indices, normals: item === 'surface' ? normals : undefined }, `--view-${item}`, this.#cut);
-    for (const mesh of meshes) mesh.position.set(origin[0] - scene[0], origin[1] - scene[1], origin[2] - scene[2]);
-    return meshes;
   }
 }
 

@@ -1,0 +1,80 @@
+import type { BooleanOperation, CallOptions } from 'fast-winding';
+import type { Page, Source } from '../page.ts';
+import { centreOf, firstPlacement, matrixOf } from '../placement.ts';
+import { PRIMITIVES } from '../primitives.ts';
+import type { PrimitiveName } from '../primitives.ts';
+import { diagonal } from '../state.ts';
+import { attempt } from './attempt.ts';
+import { fileSource } from './open.ts';
+import { load } from './load.ts';
+import { only } from './only.ts';
+import { sourceOf } from './source.ts';
+import { timed } from './timed.ts';
+
+/** Parts of the model's diagonal that a simple shape is large. */
+const SIZE = 0.4;
+
+/** Opens what the model is to be combined with; its numbers are in the unit of the model's. */
+export async function openSecond(page: Page, file: File): Promise<void> {
+  await takeSecond(page, { ...fileSource(file), unit: page.source?.unit ?? 'millimeter' });
+}
+
+/** Takes a simple shape, in the middle of the model. */
+export async function makeSecond(page: Page, name: PrimitiveName): Promise<void> {
+  const { bounds } = page.store.state.model!;
+  const { positions, indices } = PRIMITIVES[name].make();
+  const [size, centre] = [SIZE * diagonal(bounds) || 1, centreOf(bounds)];
+  const placed = positions.map((value, i) => size * value + centre[i % 3]);
+  const soup = await page.engine.Soup.from({ positions: placed, indices });
+  const source = await sourceOf(soup, name);
+  soup.free();
+  await takeSecond(page, source);
+}
+
+async function takeSecond(page: Page, source: Source): Promise<void> {
+  const { store } = page;
+  await attempt(page, `Opening ${source.name}`, `${source.name} could not be opened`, async (options) => {
+    const { shape, geometry, bounds, name, oriented } = await load(page, source, options);
+    try {
+      if (shape.kind === 'cloud' && !oriented) await shape.orient(options);
+    } catch (error) {
+      shape.free();
+      throw error;
+    }
+    store.state.second?.shape.free();
+    page.secondSource = source;
+    const { model, visible } = store.state;
+    store.set({
+      second: { shape, geometry, bounds, name },
+      placement: firstPlacement(model!.bounds, bounds),
+      visible: { ...visible, model: true, second: true, combined: false },
+      halves: false,
+    });
+  });
+}
+
+export function removeSecond(page: Page): void {
+  page.store.state.second?.shape.free();
+  page.secondSource = undefined;
+  page.store.set({ second: undefined });
+}
+
+/** What the model and the second one give together, as they stand. */
+export async function combine(page: Page, operation: BooleanOperation): Promise<void> {
+  const { store } = page;
+  const { model, second, placement } = store.state;
+  if (!model || !second) return;
+  await attempt(page, 'Combining', 'The models could not be combined', async (options: Required<CallOptions>) => {
+    const transform = matrixOf(placement, second.bounds);
+    const made = await timed(() => model.shape.boolean(operation, second.shape, { transform, ...options }));
+    const { soup, operands } = made.value;
+    try {
+      const triangles = await soup.geometry();
+      store.state.combined?.value.soup.free();
+      store.set({ combined: { value: { soup, triangles, operands }, milliseconds: made.milliseconds }, visible: only(page, 'combined') });
+    } catch (error) {
+      soup.free();
+      throw error;
+    }
+  });
+}

@@ -1,0 +1,85 @@
+import type { CheckReport } from 'fast-winding';
+import { checkModel, turnFaces } from '../actions/check.ts';
+import { saveReport } from '../actions/save.ts';
+import { byId, setFacts } from '../dom.ts';
+import { count, length, milliseconds, plural, significant, volume } from '../format.ts';
+import type { Page } from '../page.ts';
+import { sentence } from '../problem.ts';
+import type { Limits, State, Timed } from '../state.ts';
+import { defectList } from './defects.ts';
+import { enableWhenUsable, reveal } from './usable.ts';
+
+const RATINGS: Record<CheckReport['verdict']['rating'], string> = {
+  clean: 'good',
+  printsAsSeen: 'good',
+  doubtful: 'caution',
+  noSolid: 'alarm',
+};
+
+/** What is wrong with the model: the verdict, the list of defects, and figures. */
+export function checkPanel(page: Page): void {
+  const { store } = page;
+  const isSoup = ({ model }: State): boolean => model?.shape.kind === 'soup';
+  enableWhenUsable(page, byId<HTMLButtonElement>('check'), isSoup);
+  enableWhenUsable(page, byId<HTMLButtonElement>('turn'), isSoup);
+  byId('check').addEventListener('click', () => void checkModel(page).then(() => store.state.report && reveal('verdict')));
+  byId('turn').addEventListener('click', () => void turnFaces(page));
+  byId('check-save').addEventListener('click', () => saveReport(page));
+  limit(page, 'check-thickness', 'minimumThickness');
+  limit(page, 'check-angle', 'overhangAngle');
+  defectList(store);
+  store.on(['model'], (state) => {
+    byId('check-cloud').hidden = !state.model || isSoup(state);
+  });
+  store.on(['report'], ({ report }) => showReport(report));
+}
+
+/** A number that the check goes by; another one makes the report old. */
+function limit({ store }: Page, id: string, name: keyof Limits): void {
+  const input = byId<HTMLInputElement>(id);
+  input.addEventListener('change', () => {
+    const value = input.valueAsNumber;
+    if (value >= 0 && value <= (name === 'overhangAngle' ? 90 : Infinity)) store.set({ limits: { ...store.state.limits, [name]: value } });
+    else input.value = String(store.state.limits[name]);
+  });
+  store.on(['limits'], ({ limits }) => {
+    input.value = String(limits[name]);
+  });
+}
+
+function showReport(report: Timed<CheckReport> | undefined): void {
+  byId<HTMLButtonElement>('check-save').disabled = !report;
+  byId('verdict').hidden = !report;
+  byId('turn-row').hidden = !report || report.value.flippedFaces.count + report.value.inconsistentEdges.count === 0;
+  setFacts(byId('check-facts'), report ? factsOf(report) : []);
+  if (!report) return;
+  const { rating, text, reasons } = report.value.verdict;
+  byId('verdict').dataset.rating = RATINGS[rating];
+  byId('verdict-text').textContent = sentence(text);
+  byId('verdict-reasons').replaceChildren(
+    ...reasons.map((reason) => {
+      const item = document.createElement('li');
+      item.textContent = sentence(reason.text);
+      return item;
+    }),
+  );
+}
+
+function factsOf({ value, milliseconds: time }: Timed<CheckReport>): [string, string][] {
+  const { triangles, vertices, shells, closedShells, area, volume: enclosed, bounds, thickness, overhangs, genus, bed } = value;
+  const facts: [string, string][] = [
+    ['Triangles', `${count(triangles)}, ${plural(vertices, 'vertex', 'vertices')}`],
+    ['Shells', closedShells === shells.count ? `${count(shells.count)}, closed` : `${count(shells.count)}, ${count(closedShells)} closed`],
+    ['Volume', volume(enclosed)],
+    ['Area', `${significant(area)} mm²`],
+    ['Size, mm', bounds.min.map((low, k) => significant(bounds.max[k] - low)).join(' × ')],
+  ];
+  if (genus != null) facts.push(['Handles', count(genus)]);
+  if (thickness) facts.push(['Thinnest', length(thickness.minimum)]);
+  const half = thickness?.percentiles.find(([share]) => share === 50);
+  if (half) facts.push(['Thickness, median', length(half[1])]);
+  facts.push([`Overhangs over ${significant(overhangs.angle)}°`, `${significant(overhangs.area, 3)} mm²`]);
+  if (bed) facts.push(['In the printer', bed.fits ? 'fits' : bed.fitsTurned ? 'fits turned by 90°' : 'does not fit']);
+  facts.push(['Checked', milliseconds(time)]);
+  return facts;
+}

@@ -1,0 +1,25 @@
+import { byId, paintSlider } from '../dom.ts';
+import { count } from '../format.ts';
+import type { State } from '../state.ts';
+
+/** A slider whose value is written beside it. */
+export function slider(id: string): HTMLInputElement {
+  const input = byId<HTMLInputElement>(id);
+  const show = (): void => {
+    byId(`${id}-out`).textContent = input.value;
+    paintSlider(input);
+  };
+  input.addEventListener('input', show);
+  show();
+  return input;
+}
+
+/** How many cubic cells a resolution along the longest side means for the model. */
+export function cells({ model }: State, resolution: number): string {
+  if (!model) return '';
+  const { min, max } = model.bounds;
+  const sides = [0, 1, 2].map((k) => max[k] - min[k]);
+  const cell = Math.max(...sides) / resolution;
+  const counts = sides.map((side) => Math.max(1, Math.ceil(side / cell - 1e-9)));
+  return `${counts.map(count).join(' × ')} cells of ${cell.toPrecision(3)} mm`;
+}
