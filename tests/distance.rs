@@ -42,7 +42,10 @@ fn round_shapes_are_as_far_as_theirs_but_for_facets() {
     assert!(sphere_error < 2.0 * (1.6f64 / 24.0).powi(2) / 4.0, "{sphere_error}");
     let ring = |p: Vec3| (p.truncate().length() - 1.0).hypot(p.z) - 0.35;
     let torus_error = off(torus(1.0, 0.35, 120, 60), &ring);
-    assert!(torus_error < 1.35 * (6.29f64 / 120.0).powi(2) / 8.0 + 0.35 * (6.29f64 / 60.0).powi(2) / 8.0, "{torus_error}");
+    assert!(
+        torus_error < 1.35 * (6.29f64 / 120.0).powi(2) / 8.0 + 0.35 * (6.29f64 / 60.0).powi(2) / 8.0,
+        "{torus_error}"
+    );
 }
 
 #[test]
@@ -80,7 +83,11 @@ fn damaged_shapes_are_as_far_as_their_nearest_triangle() {
 fn signs_are_right_where_shapes_are_open_flipped_or_overlap() {
     let moved = |x: f64| {
         let sphere = sphere(20);
-        TriangleSoup::new(sphere.positions().iter().map(|p| *p + x * Vec3::X).collect(), sphere.triangles().to_vec()).unwrap()
+        TriangleSoup::new(
+            sphere.positions().iter().map(|p| *p + x * Vec3::X).collect(),
+            sphere.triangles().to_vec(),
+        )
+        .unwrap()
     };
     let ball = sphere(20);
     let low = |t: usize| ball.corners(t).iter().all(|p| p.z < -0.75);
@@ -89,11 +96,8 @@ fn signs_are_right_where_shapes_are_open_flipped_or_overlap() {
     let flipped = TriangleSoup::new(ball.positions().to_vec(), flips).unwrap();
     let of_ball = |p: Vec3| p.length() - 1.0;
     let of_two = |p: Vec3| (p - 0.4 * Vec3::X).length().min((p + 0.4 * Vec3::X).length()) - 1.0;
-    let cases: [(TriangleSoup, &dyn Fn(Vec3) -> f64); 3] = [
-        (without(&ball, low), &of_ball),
-        (flipped, &of_ball),
-        (joined(&[moved(-0.4), moved(0.4)]), &of_two),
-    ];
+    let cases: [(TriangleSoup, &dyn Fn(Vec3) -> f64); 3] =
+        [(without(&ball, low), &of_ball), (flipped, &of_ball), (joined(&[moved(-0.4), moved(0.4)]), &of_two)];
     for (soup, truth) in cases {
         let points: Vec<Vec3> = around(1.5, 2000, 4).into_iter().filter(|p| truth(*p).abs() > 0.1).collect();
         let found = distances(&field(soup), &points);
@@ -107,7 +111,8 @@ fn signs_are_right_where_shapes_are_open_flipped_or_overlap() {
 fn on_the_surface_the_distance_is_zero_and_the_gradient_its_normal() {
     let soup = cube(1.0);
     let field = field(soup.clone());
-    let on_faces: Vec<Vec3> = (0..12).map(|t| soup.corners(t).iter().sum::<Vec3>() / 4.0 + 0.25 * soup.corners(t)[0]).collect();
+    let on_faces: Vec<Vec3> =
+        (0..12).map(|t| soup.corners(t).iter().sum::<Vec3>() / 4.0 + 0.25 * soup.corners(t)[0]).collect();
     let found = SignedDistance::new(&field).closest(&on_faces, &Silent).unwrap();
     for (t, near) in found.iter().enumerate() {
         assert_eq!((near.signed, near.signed.is_sign_positive()), (0.0, true));

@@ -16,12 +16,14 @@ fn field(shape: impl Into<fast_winding::data::Shape>) -> WindingField {
 }
 
 fn offset_of(field: &WindingField, distance: f64, spacing: f64, sharp: Option<f64>) -> SurfaceMesh {
-    offset(field, &OffsetConfig { distance, spacing: Some(spacing), sharp, resolution: None }, &Silent).unwrap()
+    offset(field, &OffsetConfig { distance, spacing: Some(spacing), sharp, resolution: None }, &Silent)
+        .unwrap()
 }
 
 /// Largest difference of the signed distance at the vertices from `expected`.
 fn largest_error(field: &WindingField, mesh: &SurfaceMesh, expected: f64) -> f64 {
-    let found = SignedDistance::new(field).distances(&mesh.positions, &DistanceConfig::default(), &Silent).unwrap();
+    let found =
+        SignedDistance::new(field).distances(&mesh.positions, &DistanceConfig::default(), &Silent).unwrap();
     found.iter().map(|d| (d - expected).abs()).fold(0.0, f64::max)
 }
 
@@ -82,7 +84,8 @@ fn a_sphere_stays_one_either_way() {
 fn offsets_strictly_contain_what_they_are_made_of() {
     let spacing = 0.05;
     let cloud = sphere_cloud(300);
-    let noisy: Vec<Vec3> = cloud.points().iter().zip(scattered(cube(0.1).bounds(), 300, 3)).map(|(p, s)| *p + s).collect();
+    let noisy: Vec<Vec3> =
+        cloud.points().iter().zip(scattered(cube(0.1).bounds(), 300, 3)).map(|(p, s)| *p + s).collect();
     let noisy = OrientedCloud::new(noisy, cloud.normals().to_vec(), cloud.areas().to_vec()).unwrap();
     let open = without(&torus(1.0, 0.4, 60, 30), |t| t % 7 == 0);
     for shape in [field(cloud), field(noisy), field(open)] {
@@ -108,7 +111,11 @@ fn open_and_flipped_shapes_have_closed_offsets() {
     for d in [-0.2, 0.1] {
         let mesh = offset_of(&damaged, d, 0.05, None);
         assert_eq!(topology(&mesh).1, 0, "{d}");
-        assert!((mesh.volume() / (4.0 / 3.0 * PI * (1.0 + d).powi(3)) - 1.0).abs() < 0.1, "{d}: {}", mesh.volume());
+        assert!(
+            (mesh.volume() / (4.0 / 3.0 * PI * (1.0 + d).powi(3)) - 1.0).abs() < 0.1,
+            "{d}: {}",
+            mesh.volume()
+        );
     }
 }
 
@@ -129,7 +136,8 @@ fn parts_far_apart_are_all_found() {
 #[test]
 fn a_hollow_cube_has_the_volume_of_its_walls() {
     let (cube, spacing) = (field(cube(1.0)), 0.06);
-    let config = HollowConfig { thickness: 0.3, spacing: Some(spacing), sharp: Some(35.0), ..HollowConfig::default() };
+    let config =
+        HollowConfig { thickness: 0.3, spacing: Some(spacing), sharp: Some(35.0), ..HollowConfig::default() };
     let mesh = hollow(&cube, &config, &Silent).unwrap();
     // Two shells.
     assert_eq!(topology(&mesh), (4, 0));
@@ -165,11 +173,23 @@ fn impossible_requests_are_refused() {
     assert_eq!(refusal(&empty, config), OffsetError::from(LatticeError::EmptyBounds));
     let far = OffsetConfig { distance: f64::INFINITY, ..config };
     assert_eq!(refusal(&ball, far), OffsetError::BadDistance(f64::INFINITY));
-    assert_eq!(refusal(&ball, OffsetConfig { resolution: Some(0), ..config }), LatticeError::BadResolution(0.0).into());
-    assert_eq!(refusal(&ball, OffsetConfig { spacing: Some(-1.0), ..config }), LatticeError::BadSpacing(-1.0).into());
-    assert_eq!(refusal(&ball, OffsetConfig { sharp: Some(5.0), ..config }), SurfaceError::BadSharp(5.0).into());
+    assert_eq!(
+        refusal(&ball, OffsetConfig { resolution: Some(0), ..config }),
+        LatticeError::BadResolution(0.0).into()
+    );
+    assert_eq!(
+        refusal(&ball, OffsetConfig { spacing: Some(-1.0), ..config }),
+        LatticeError::BadSpacing(-1.0).into()
+    );
+    assert_eq!(
+        refusal(&ball, OffsetConfig { sharp: Some(5.0), ..config }),
+        SurfaceError::BadSharp(5.0).into()
+    );
     let fine = OffsetConfig { distance: 0.1, spacing: Some(1e-6), ..config };
-    assert!(matches!(refusal(&ball, fine), OffsetError::Surface(SurfaceError::Lattice(LatticeError::TooMany(_)))));
+    assert!(matches!(
+        refusal(&ball, fine),
+        OffsetError::Surface(SurfaceError::Lattice(LatticeError::TooMany(_)))
+    ));
     let cancelled = offset(&ball, &OffsetConfig { distance: 0.1, ..config }, &|_: f64, _: &str| false);
     assert!(cancelled.is_err());
 
@@ -184,7 +204,10 @@ fn impossible_requests_are_refused() {
     assert_eq!(refusal(with(Drain { at: Vec3::new(5.0, 0.0, 0.0), ..drain })), OffsetError::DrainMisses(0));
     assert_eq!(refusal(with(Drain { direction: Vec3::Z, ..drain })), OffsetError::DrainMisses(0));
     assert_eq!(refusal(with(Drain { direction: Vec3::ZERO, ..drain })), OffsetError::BadDrain(0));
-    assert!(matches!(refusal(with(Drain { radius: 0.01, ..drain })), OffsetError::SmallDrain { drain: 0, .. }));
+    assert!(matches!(
+        refusal(with(Drain { radius: 0.01, ..drain })),
+        OffsetError::SmallDrain { drain: 0, .. }
+    ));
 }
 
 #[test]

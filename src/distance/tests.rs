@@ -62,7 +62,9 @@ fn the_nearest_is_that_of_a_search_through_all() {
 
 #[test]
 fn far_away_and_tiny_shapes_are_measured_as_exactly() {
-    for (shift, scale) in [(Vec3::splat(1e6), 1.0), (Vec3::ZERO, 1e-30), (Vec3::splat(-3e3), 1e-3), (Vec3::ZERO, 1e25)] {
+    for (shift, scale) in
+        [(Vec3::splat(1e6), 1.0), (Vec3::ZERO, 1e-30), (Vec3::splat(-3e3), 1e-3), (Vec3::ZERO, 1e25)]
+    {
         let soup = soup(300, 6);
         let moved = soup.positions().iter().map(|p| scale * *p + shift).collect();
         let shape = Shape::from(TriangleSoup::new(moved, soup.triangles().to_vec()).unwrap());
@@ -94,7 +96,8 @@ fn points_of_clouds_are_found_too() {
 #[test]
 fn of_equally_near_ones_the_first_is_taken() {
     // Corners of a grid, seen from the centres of its cells.
-    let points: Vec<Vec3> = (0..216).map(|i| Vec3::new((i * 5 % 6) as f64, (i / 6 % 6) as f64, (i / 36) as f64)).collect();
+    let points: Vec<Vec3> =
+        (0..216).map(|i| Vec3::new((i * 5 % 6) as f64, (i / 6 % 6) as f64, (i / 36) as f64)).collect();
     let count = points.len();
     let cloud = OrientedCloud::new(points, vec![Vec3::Z; count], vec![1.0; count]).unwrap();
     let tree = DistanceTree::new(&cloud.into());
@@ -110,5 +113,8 @@ fn nothing_is_near_where_there_is_nothing() {
     assert_eq!(empty.closest(Vec3::ZERO), None);
     let tree = DistanceTree::new(&soup(10, 1).into());
     assert_eq!((tree.closest(Vec3::NAN), tree.closest(Vec3::INFINITY)), (None, None));
-    assert!(tree.closest(Vec3::splat(1e200)).is_some_and(|found| found.distance == f64::INFINITY || found.distance > 1e200));
+    assert!(
+        tree.closest(Vec3::splat(1e200))
+            .is_some_and(|found| found.distance == f64::INFINITY || found.distance > 1e200)
+    );
 }

@@ -159,7 +159,11 @@ impl<'a> SignedDistance<'a> {
     ///
     /// # Errors
     /// If and only if the shape is empty, `monitor` cancels, or memory does not suffice.
-    pub fn closest(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<SignedClosest>, DistanceError> {
+    pub fn closest(
+        &self,
+        points: &[Vec3],
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<SignedClosest>, DistanceError> {
         self.check(&DistanceConfig::default())?;
         let (order, sorted) = along_a_curve(points);
         let mut found = zeroed(points.len())?;

@@ -69,7 +69,8 @@ pub fn hollow(
     let closed = match field.is_closed() {
         true => None,
         false => {
-            let config = SurfaceConfig { spacing: Some(spacing), sharp: config.sharp, ..SurfaceConfig::default() };
+            let config =
+                SurfaceConfig { spacing: Some(spacing), sharp: config.sharp, ..SurfaceConfig::default() };
             let mesh = TriangleSoup::from(extract(field, &config, monitor)?);
             Some(WindingField::new(mesh, FieldConfig::default()))
         }

@@ -49,9 +49,13 @@ pub enum OffsetError {
     NoCavity(f64),
     #[error("drain {0} needs a finite place, a direction that is not zero and a finite radius above 0")]
     BadDrain(usize),
-    #[error("drain {drain} has a radius of {radius}, too small for cells of {spacing}: it must be as large as they are")]
+    #[error(
+        "drain {drain} has a radius of {radius}, too small for cells of {spacing}: it must be as large as they are"
+    )]
     SmallDrain { drain: usize, radius: f64, spacing: f64 },
-    #[error("drain {0} misses the cavity: its axis must lead from its place into the part that becomes hollow")]
+    #[error(
+        "drain {0} misses the cavity: its axis must lead from its place into the part that becomes hollow"
+    )]
     DrainMisses(usize),
 }
 

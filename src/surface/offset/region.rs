@@ -118,8 +118,7 @@ impl Region<'_> {
             Kept::UpTo(limit) => limit >= 0.0,
             // Its inner side faces what is deeper, its outer one is met from either side.
             Kept::Shell(depth) => {
-                found.distance > HALF * depth
-                    || !self.field.is_nearly_above(q, HALF, &mut probe.scratch)
+                found.distance > HALF * depth || !self.field.is_nearly_above(q, HALF, &mut probe.scratch)
             }
         };
         if is_outward { away } else { -away }
@@ -158,8 +157,12 @@ impl LevelSet for Region<'_> {
             run.iter_mut().zip(&points[first..]).for_each(|(d, q)| *d = self.distance(*q, search));
         };
         fill_blocks(&mut distances, RUN, measure, "surface cells", monitor)?;
-        let asked: Vec<Vec3> =
-            points.iter().zip(&distances).filter(|(_, d)| self.kept.value(**d).is_none()).map(|(q, _)| *q).collect();
+        let asked: Vec<Vec3> = points
+            .iter()
+            .zip(&distances)
+            .filter(|(_, d)| self.kept.value(**d).is_none())
+            .map(|(q, _)| *q)
+            .collect();
         let inside = self.field.classify(&asked, HALF, monitor).map_err(crate::surface::trace_error)?;
         let mut inside = inside.into_iter();
         let value = |(q, d): (&Vec3, &f64)| {

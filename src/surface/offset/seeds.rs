@@ -81,7 +81,8 @@ fn kept(
         // No triangle is in blocks that are farther from the shape than their radius: they are on one side.
         let aside: Vec<usize> = (0..blocks.len()).filter(|b| is_kept[*b] && found[*b] > radius).collect();
         let centers: Vec<Vec3> = aside.iter().map(|b| center(&blocks[*b])).collect();
-        let inside = region.field.classify(&centers, HALF, &undetermined).map_err(crate::surface::trace_error)?;
+        let inside =
+            region.field.classify(&centers, HALF, &undetermined).map_err(crate::surface::trace_error)?;
         aside.iter().zip(inside).for_each(|(b, inside)| is_kept[*b] = inside == region.kept.is_within());
     }
     Ok(blocks.iter().zip(is_kept).filter(|(_, kept)| *kept).map(|(block, _)| *block).collect())

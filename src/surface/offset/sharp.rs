@@ -22,7 +22,8 @@ impl Evidence for Region<'_> {
     }
 
     fn plane(&self, place: Vec3, outward: Vec3, search: &mut Search) -> Option<Plane> {
-        let (normal, value) = self.probed(search, |probe| (self.normal(place, probe), self.value(place, probe)));
+        let (normal, value) =
+            self.probed(search, |probe| (self.normal(place, probe), self.value(place, probe)));
         // Triangles may be flipped, the mesh is not.
         let normal = if normal.dot(outward) < 0.0 { -normal } else { normal };
         (normal != Vec3::ZERO && value.is_finite()).then(|| Plane { point: place + value * normal, normal })
