@@ -21,6 +21,7 @@ pub mod metrics;
 pub mod orient;
 pub mod polygon;
 pub mod print;
+pub mod repair;
 pub mod slice;
 pub mod solid;
 pub mod surface;

@@ -1,0 +1,167 @@
+//! Repair that keeps the triangles of the input.
+//!
+//! The triangles, put right and closed by caps, are a soup whose winding number is an integer everywhere. Split along each other, its
+//! parts bound cells; the parts with w ≥ 1/2 on one side alone bound those inside: a closed surface, whatever the caps ran through.
+use super::agreement::agreement;
+use super::edges::{Sets, edges, net_edges, sides_by_edge};
+use super::faces::{Faces, NEW};
+use super::holes::close;
+use super::manifold::separate;
+use super::remesh::remesh;
+use super::sides::bounding;
+use super::stitch::stitch;
+use super::{Fallback, RemeshConfig, RepairError, RepairMethod, RepairReport, Repaired};
+use crate::data::{Monitor, Shape, TriangleSoup};
+use crate::math::area_vector;
+use crate::winding::WindingField;
+
+/// How a soup is repaired with its own triangles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConserveConfig {
+    /// Open edges are stitched that are no farther apart, in millimetres. Where it is not given, 1e-5 of the diagonal.
+    pub tolerance: Option<f64>,
+    /// Whether triangles are turned over where neighbours disagree, and pieces that are inside out.
+    pub orient: bool,
+    /// The least agreement of the result with {w ≥ 1/2} of the input, from 0 to 1, before the surface is made anew; see
+    /// [`RepairReport::agreement`].
+    pub least_agreement: f64,
+    /// How the surface is made anew where the triangles of the input do not suffice; the report says so. Without it the result is then
+    /// what came of them.
+    pub fallback: Option<RemeshConfig>,
+}
+
+impl Default for ConserveConfig {
+    fn default() -> Self {
+        ConserveConfig { tolerance: None, orient: true, least_agreement: 0.8, fallback: Some(RemeshConfig::default()) }
+    }
+}
+
+const TOLERANCE: f64 = 1e-5;
+/// Times that what is open after splitting is closed and split again.
+const ROUNDS: usize = 3;
+/// A piece with less volume than this times its area to the power 3/2 is a sheet: a plate of that shape is 3e-6 as thick as it is wide.
+const SHEET: f64 = 1e-6;
+
+/// The triangles of a soup as a closed manifold that bounds {w ≥ 1/2}. A soup that is one already comes back as it is, bit for bit.
+///
+/// # Errors
+/// If and only if `field` is that of a cloud, an option is out of range, nothing is inside, memory does not suffice or the monitor
+/// cancels.
+pub fn conserve(field: &WindingField, config: &ConserveConfig, monitor: &dyn Monitor) -> Result<Repaired, RepairError> {
+    let Shape::Soup(soup) = field.shape() else { return Err(RepairError::CloudConserved) };
+    check(config)?;
+    let mut report = RepairReport::default();
+    let mut faces = Faces::of(soup);
+    put_right(&mut faces, config, &mut report, monitor)?;
+    let is_same = faces.triangles.len() == soup.len() && report == RepairReport::default();
+    let rebuilt = (!is_same).then(|| WindingField::new(faces.to_soup(), Default::default()));
+    let field = rebuilt.as_ref().unwrap_or(field);
+    close(&mut faces, Some(field), &mut report, monitor)?;
+    for _ in 0..ROUNDS {
+        faces = resolved(&faces, &mut report, monitor)?;
+        if net_edges(&faces.triangles).is_empty() {
+            break;
+        }
+        close(&mut faces, None, &mut report, monitor)?;
+    }
+    report.closed = separate(&mut faces, &mut report);
+    drop_sheets(&mut faces, &mut report);
+    let result = finished(soup, &faces, report, field, monitor)?;
+    let lacks = lack_of(&result, config);
+    match (lacks, &config.fallback) {
+        (None, _) => Ok(result),
+        (Some(fallback), Some(remeshing)) => {
+            let mut made = remesh(field, remeshing, monitor)?;
+            made.report.fallback = Some(fallback);
+            Ok(made)
+        }
+        (Some(Fallback::Empty), None) => Err(RepairError::Empty),
+        (Some(_), None) => Ok(result),
+    }
+}
+
+fn check(config: &ConserveConfig) -> Result<(), RepairError> {
+    if let Some(tolerance) = config.tolerance.filter(|t| !(t.is_finite() && *t >= 0.0)) {
+        return Err(RepairError::BadTolerance(tolerance));
+    }
+    match config.least_agreement {
+        least if !(0.0..=1.0).contains(&least) => Err(RepairError::BadAgreement(least)),
+        _ => Ok(()),
+    }
+}
+
+/// What does not need the field: duplicates, what has no area, seams, orientation.
+fn put_right(faces: &mut Faces, config: &ConserveConfig, report: &mut RepairReport, monitor: &dyn Monitor) -> Result<(), RepairError> {
+    faces.drop_degenerate(report);
+    faces.merge_coincident(report);
+    if faces.open_edges() > 0 {
+        let bounds = faces.to_soup().bounds();
+        stitch(faces, config.tolerance.unwrap_or(TOLERANCE * bounds.diagonal()), report, monitor)?;
+        faces.drop_degenerate(report);
+        faces.merge_coincident(report);
+    }
+    Ok(())
+}
+
+/// The parts of a closed soup that bound its inside.
+fn resolved(faces: &Faces, report: &mut RepairReport, monitor: &dyn Monitor) -> Result<Faces, RepairError> {
+    let pieces = Faces { sources: (0..faces.triangles.len() as u32).collect(), ..faces.clone() };
+    Ok(bounding(faces, &pieces, report, monitor)?)
+}
+
+/// Drops pieces, triangles joined by edges, that enclose next to nothing.
+fn drop_sheets(faces: &mut Faces, report: &mut RepairReport) {
+    let sides = sides_by_edge(&faces.triangles);
+    let mut sets = Sets::new(faces.triangles.len());
+    edges(&sides).for_each(|same| same.iter().for_each(|(_, side)| sets.join(same[0].1 / 3, side / 3)));
+    let of: Vec<u32> = (0..faces.triangles.len() as u32).map(|t| sets.find(t)).collect();
+    let mut sizes = vec![(0.0, 0.0); of.len()];
+    for (t, piece) in of.iter().enumerate() {
+        let anchor = faces.corners(*piece as usize)[0];
+        let [a, b, c] = faces.corners(t).map(|p| p - anchor);
+        let size = &mut sizes[*piece as usize];
+        *size = (size.0 + a.dot(b.cross(c)) / 6.0, size.1 + area_vector([a, b, c]).length());
+    }
+    let is_sheet = |piece: u32| {
+        let (volume, area): (f64, f64) = sizes[piece as usize];
+        volume.abs() <= SHEET * area * area.sqrt()
+    };
+    report.sheets += (0..of.len() as u32).filter(|t| of[*t as usize] == *t && is_sheet(*t)).count();
+    faces.retain(|t| !is_sheet(of[t]));
+}
+
+fn finished(
+    soup: &TriangleSoup,
+    faces: &Faces,
+    mut report: RepairReport,
+    field: &WindingField,
+    monitor: &dyn Monitor,
+) -> Result<Repaired, RepairError> {
+    let is_same = faces.triangles == soup.triangles() && faces.positions == soup.positions();
+    let result = if is_same { soup.clone() } else { faces.to_soup() };
+    report.method = RepairMethod::Conserve;
+    report.new = faces.sources.iter().filter(|source| **source == NEW).count();
+    report.kept = faces.sources.len() - report.new;
+    report.volume = volume(&result);
+    report.agreement = if result.is_empty() { 0.0 } else { agreement(&result, field, monitor)? };
+    Ok(Repaired { soup: result, sources: faces.sources.clone(), report })
+}
+
+/// The volume that a closed soup encloses.
+pub fn volume(soup: &TriangleSoup) -> f64 {
+    let anchor = soup.bounds().center();
+    let tetrahedron = |t: usize| {
+        let [a, b, c] = soup.corners(t).map(|p| p - anchor);
+        a.dot(b.cross(c)) / 6.0
+    };
+    (0..soup.len()).map(tetrahedron).sum()
+}
+
+fn lack_of(result: &Repaired, config: &ConserveConfig) -> Option<Fallback> {
+    match &result.report {
+        _ if result.soup.is_empty() => Some(Fallback::Empty),
+        report if !report.closed => Some(Fallback::Open),
+        report if report.agreement < config.least_agreement => Some(Fallback::Disagrees),
+        _ => None,
+    }
+}
