@@ -10,6 +10,7 @@
 //! Barill et al. 2018, *Fast Winding Numbers for Soups and Clouds*.
 #![deny(unsafe_code)]
 
+pub mod arrangement;
 pub mod bvh;
 pub mod check;
 pub mod data;

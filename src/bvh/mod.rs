@@ -3,6 +3,7 @@
 mod build;
 mod morton;
 mod nearest;
+mod overlaps;
 mod sort;
 
 pub use build::cut_at_highest_bit;
