@@ -161,6 +161,49 @@ fn two_halves_that_nearly_touch_are_stitched() {
 }
 
 #[test]
+fn overlapping_boxes_become_their_union() {
+    let at = |low: Vec3, high: Vec3| cuboid(Aabb { min: low, max: high });
+    let shifted = Vec3::new(0.3, 0.45, 0.6);
+    // Askew, with faces in one plane, and one with a window cut through by the other.
+    let others = [
+        (at(shifted, shifted + Vec3::ONE), 2.0 - 0.7 * 0.55 * 0.4),
+        (at(Vec3::new(0.5, 0.0, 0.0), Vec3::new(1.5, 1.0, 1.0)), 1.5),
+        (at(Vec3::new(0.5, 0.25, 0.25), Vec3::new(1.5, 0.75, 0.75)), 1.125),
+        (at(Vec3::new(1.0, 0.25, 0.25), Vec3::new(2.0, 0.75, 1.25)), 1.5),
+        (at(Vec3::new(1.0, 0.0, 0.0), Vec3::new(2.0, 1.0, 1.0)), 2.0),
+    ];
+    for (other, expected) in others {
+        let (made, euler) = conserved(&joined(&[at(Vec3::ZERO, Vec3::ONE), other]));
+        assert_near(volume(&made.soup), expected, 1e-12);
+        assert_eq!(euler, 2, "{:?}", made.report);
+    }
+}
+
+#[test]
+fn an_open_box_that_another_runs_through_is_closed_and_united_with_it() {
+    let outer = without(&cube(1.0), |t| t < 2);
+    let bar = cuboid(Aabb { min: Vec3::new(-2.0, -0.5, -0.25), max: Vec3::new(2.0, 0.5, 0.25) });
+    let (made, euler) = conserved(&joined(&[outer, bar]));
+    assert_near(volume(&made.soup), 8.0 + 2.0 * 0.5, 1e-12);
+    assert_eq!((euler, made.report.holes), (2, 1));
+}
+
+#[test]
+fn turned_faces_are_turned_back_and_hollows_stay() {
+    let solid = torus(1.0, 0.4, 40, 16);
+    let hollow = joined(&[cube(1.0), flipped(&cube(0.5))]);
+    for (whole, share) in [(&solid, 0.01), (&solid, 0.1), (&solid, 1.0), (&hollow, 0.1)] {
+        let mut next = random(7);
+        let triangles: Vec<[u32; 3]> =
+            whole.triangles().iter().map(|[a, b, c]| if next() < share { [*a, *c, *b] } else { [*a, *b, *c] }).collect();
+        let turned = triangles.iter().zip(whole.triangles()).filter(|(a, b)| a != b).count();
+        let (made, _) = conserved(&TriangleSoup::new(whole.positions().to_vec(), triangles).unwrap());
+        assert_eq!(made.report.flipped, turned);
+        assert_near(volume(&made.soup), volume(whole), 1e-12);
+    }
+}
+
+#[test]
 fn boxes_that_share_an_edge_or_a_corner_get_one_each() {
     let at = |x: f64, y: f64, z: f64| {
         let min = Vec3::new(x, y, z);
@@ -199,7 +242,8 @@ fn parts_with_wide_gaps_are_remeshed_and_the_report_says_so() {
     let made = conserve(&field(&soup), &ConserveConfig::default(), &Silent).unwrap();
     assert_eq!(made.report.method, RepairMethod::Remesh);
     assert!(matches!(made.report.fallback, Some(Fallback::Disagrees | Fallback::Empty)), "{:?}", made.report);
-    assert_near(made.report.volume, 8.2, 0.03);
+    // {w >= 1/2} reaches up to the faces.
+    assert_near(made.report.volume, 2.04f64.powi(3), 0.01);
 }
 
 #[test]
@@ -210,7 +254,9 @@ fn a_remeshed_box_without_a_face_has_its_edges_and_a_flat_lid() {
     let mesh = SurfaceMesh::with_face_normals(made.soup.positions().to_vec(), made.soup.triangles().to_vec());
     assert_eq!(topology(&mesh), (2, 0));
     let distances = made.report.distances.unwrap();
-    assert!(distances.most_from_input < 0.2 * distances.spacing, "{distances:?}");
+    // Where the lid was its rim is sharp no more: nothing there says so.
+    assert!(distances.p99_from_input < 0.2 * distances.spacing, "{distances:?}");
+    assert!(distances.most_from_input < 0.5 * distances.spacing, "{distances:?}");
     assert!(distances.on_input > 0.8, "{distances:?}");
     assert!(made.report.agreement > 0.97, "{:?}", made.report);
 }

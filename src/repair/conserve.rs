@@ -7,10 +7,12 @@ use super::edges::{Sets, edges, net_edges, sides_by_edge};
 use super::faces::{Faces, NEW};
 use super::holes::close;
 use super::manifold::separate;
+use super::orientation::turn;
 use super::remesh::remesh;
 use super::sides::bounding;
 use super::stitch::stitch;
 use super::{Fallback, RemeshConfig, RepairError, RepairMethod, RepairReport, Repaired};
+use crate::arrangement::{Pairs, arrange};
 use crate::data::{Monitor, Shape, TriangleSoup};
 use crate::math::area_vector;
 use crate::winding::WindingField;
@@ -100,12 +102,22 @@ fn put_right(faces: &mut Faces, config: &ConserveConfig, report: &mut RepairRepo
         faces.drop_degenerate(report);
         faces.merge_coincident(report);
     }
+    if config.orient {
+        monitor.report(0.0, "orientation")?;
+        turn(faces, report);
+    }
     Ok(())
 }
 
 /// The parts of a closed soup that bound its inside.
 fn resolved(faces: &Faces, report: &mut RepairReport, monitor: &dyn Monitor) -> Result<Faces, RepairError> {
-    let pieces = Faces { sources: (0..faces.triangles.len() as u32).collect(), ..faces.clone() };
+    let made = arrange(faces.positions.clone(), &faces.triangles, Pairs::All, monitor)?;
+    for parts in made.sources.chunk_by(|one, other| one == other).filter(|parts| parts.len() > 1) {
+        report.intersecting += 1;
+        report.parts += parts.len();
+    }
+    report.unresolved += made.unresolved;
+    let pieces = Faces { positions: made.positions, triangles: made.pieces, sources: made.sources };
     Ok(bounding(faces, &pieces, report, monitor)?)
 }
 

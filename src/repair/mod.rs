@@ -10,6 +10,7 @@ mod edges;
 mod faces;
 mod holes;
 mod manifold;
+mod orientation;
 mod refine;
 mod remesh;
 mod report;

@@ -37,6 +37,8 @@ pub struct RepairReport {
     /// Of the closed soup: those that others cut, and into how many parts.
     pub intersecting: usize,
     pub parts: usize,
+    /// Of these, those that still cross as coordinates are rounded.
+    pub unresolved: usize,
     /// Dropped, as the inside is on both sides; or on neither.
     pub internal: usize,
     pub outside: usize,
