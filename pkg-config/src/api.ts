@@ -1,5 +1,7 @@
 import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
+import type { RemeshOptions, Repaired, RepairOptions } from './repair-api.js';
 export type * from './print-api.js';
+export type * from './repair-api.js';
 
 /** Options of `init`. The same options give the same engine; other options another one. */
 export interface InitOptions {
@@ -251,6 +253,8 @@ export interface Soup extends Shape {
    * barycentres of its triangles. What has no area or direction is left out, with a warning.
    */
   toCloud(options?: { at?: 'vertices' | 'barycentres' } & CallOptions): Promise<Cloud>;
+  /** A closed manifold that bounds where w ≥ ½, with the triangles of this soup, or made anew. This soup stays as it is. */
+  repair(options?: RepairOptions): Promise<Repaired<Soup>>;
 }
 
 export interface OrientOptions extends CallOptions {
@@ -276,6 +280,8 @@ export interface Cloud extends Shape {
   orient(options?: OrientOptions): Promise<void>;
   /** Noise around each point, in millimetres: how far it and its neighbours are from a smooth surface, root mean square. */
   noise(options?: CallOptions): Promise<Float64Array>;
+  /** A closed manifold that bounds where w ≥ ½. */
+  repair(options?: RemeshOptions): Promise<Repaired<Soup>>;
   /** The points as they are; areas in square millimetres. */
   geometry(): Promise<{
     positions: Float32Array;

@@ -18,7 +18,7 @@ const WITHOUT_FIELD = ['free', 'export', 'geometry'];
 const FUNCTIONS = { exportLayer: false, exportLayers: false, toolpaths: true, gcode: false, printSettings: false } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'repair', ...Object.keys(FUNCTIONS)];
 
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
@@ -42,7 +42,7 @@ export class Engine {
 
   /** Runs one call. Throws what the WebAssembly throws. */
   run(request: Request, progress: Progress, watcher?: Watcher): unknown {
-    const { method, handle, args } = request;
+    const { method, handle, args, makes } = request;
     this.job.listen(progress);
     this.job.watch(watcher);
     if (this.needsMore(request)) placeMore();
@@ -52,7 +52,14 @@ export class Engine {
     const shape = this.handles.get(handle);
     if (!shape) throw { code: 'Freed', message: 'this shape was freed', details: {} };
     const call = shape[method as keyof Handle] as (...args: unknown[]) => unknown;
-    return call.apply(shape, [...args, this.job]);
+    const value = call.apply(shape, [...args, this.job]);
+    return makes === undefined ? value : this.keep(makes, value as { handle: Handle });
+  }
+
+  /** Keeps a shape that came of another, and describes it in its place. */
+  private keep(id: number, { handle, ...rest }: { handle: Handle }): unknown {
+    this.handles.set(id, handle);
+    return { ...rest, shape: handle.describe() };
   }
 
   private runFunction(name: keyof typeof FUNCTIONS, args: unknown[]): unknown {

@@ -13,6 +13,10 @@ function bytesOf(args: unknown[]): number {
 /** The calls that made the living shapes, so that a new worker can make them again. */
 export class Sources {
   private readonly requests = new Map<number, Request[]>();
+  /** Of each shape that was made of another, that one. */
+  private readonly parents = new Map<number, number>();
+  /** Shapes that were freed, but others were made of them. */
+  private readonly freed = new Set<number>();
 
   /** Bytes kept. */
   get bytes(): number {
@@ -21,14 +25,30 @@ export class Sources {
 
   /** Notes a call that succeeded. */
   note(request: Request): void {
-    const { method, handle } = request;
-    if (MAKERS.has(method)) this.requests.set(handle, [request]);
+    const { method, handle, makes } = request;
+    if (makes !== undefined) {
+      this.requests.set(makes, [request]);
+      this.parents.set(makes, handle);
+    } else if (MAKERS.has(method)) this.requests.set(handle, [request]);
     else if (changes(request)) this.requests.get(handle)?.push(request);
-    else if (method === 'free') this.requests.delete(handle);
+    else if (method === 'free') this.forget(handle);
+  }
+
+  private forget(handle: number): void {
+    if ([...this.parents.values()].includes(handle)) {
+      this.freed.add(handle);
+      return;
+    }
+    this.requests.delete(handle);
+    this.freed.delete(handle);
+    const parent = this.parents.get(handle);
+    this.parents.delete(handle);
+    if (parent !== undefined && this.freed.has(parent)) this.forget(parent);
   }
 
   /** All calls to repeat, in an order that works. */
   all(): Request[] {
-    return [...this.requests.values()].flat();
+    const frees = [...this.freed].map((handle): Request => ({ method: 'free', handle, args: [] }));
+    return [...[...this.requests.values()].flat(), ...frees];
   }
 }

@@ -13,6 +13,7 @@ mod options;
 mod pieces;
 mod printing;
 mod queries;
+mod repairing;
 mod results;
 
 pub use handle::Handle;
