@@ -1,12 +1,14 @@
 //! A bounding volume hierarchy of boxes, four children to a node. It owns *the* traversal of the crate; what is
 //! looked for comes in as closures.
 mod build;
+mod first_hit;
 mod morton;
 mod nearest;
 mod overlaps;
 mod sort;
 
 pub use build::cut_at_highest_bit;
+pub use first_hit::FirstHit;
 pub use morton::morton_code;
 pub use nearest::Nearest;
 pub use sort::sorted_codes;

@@ -7,8 +7,10 @@ mod mesh;
 mod monitor;
 mod pairs;
 mod parallel;
+mod sets;
 mod soup;
 mod soup_cloud;
+mod topology;
 mod warning;
 
 pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit, zeroed};
@@ -19,7 +21,9 @@ pub use mesh::SurfaceMesh;
 pub use monitor::{Cancelled, Monitor, Silent};
 pub(crate) use pairs::{ascending, sorted_pairs};
 pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each, sort_keyed, threads};
+pub(crate) use sets::{Sets, TwoKinds};
 pub use soup::{SoupError, TriangleSoup};
+pub(crate) use topology::{Edge, LeftOut, Topology};
 pub use warning::{Warning, WarningKind};
 
 use crate::math::Aabb;

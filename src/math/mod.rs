@@ -3,8 +3,10 @@ mod aabb;
 mod chebyshev;
 mod plane;
 mod predicates;
+mod ray;
 mod registers;
 mod triangle;
+mod triangles_meet;
 
 pub use aabb::Aabb;
 pub use chebyshev::{Nodes, bernstein, lebesgue};
@@ -14,5 +16,7 @@ pub use predicates::{
     Sign, covers, meet, normal_signs, orient, orient_yz, perturbed_side_of_plane, side_of_edge,
     side_of_plane, tie_break, touches,
 };
+pub use ray::Ray;
 pub use registers::{Floats, Plain, Registers, Work, in_widest_registers};
 pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};
+pub use triangles_meet::triangles_meet;

@@ -1,29 +1,6 @@
 //! Pieces of a mesh: which triangles hang together, and meshes of some of them.
-use crate::data::SurfaceMesh;
+use crate::data::{Sets, SurfaceMesh};
 use crate::math::{Vec3, area_vector};
-
-/// Sets that grow together (Galler & Fisher 1964); the least member of each stands for it.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn new(count: usize) -> Sets {
-        Sets((0..count as u32).collect())
-    }
-
-    fn find(&mut self, mut member: u32) -> u32 {
-        while self.0[member as usize] != member {
-            // Half the path, for the next time.
-            self.0[member as usize] = self.0[self.0[member as usize] as usize];
-            member = self.0[member as usize];
-        }
-        member
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-}
 
 /// Leaves out the pieces, triangles that share vertices, with less area than `least(the largest one's)`.
 pub fn keep_large(mesh: &mut SurfaceMesh, least: impl Fn(f64) -> f64) {
