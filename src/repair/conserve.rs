@@ -3,7 +3,7 @@
 //! The triangles, put right and closed by caps, are a soup whose winding number is an integer everywhere. Split along each other, its
 //! parts bound cells; the parts with w ≥ 1/2 on one side alone bound those inside: a closed surface, whatever the caps ran through.
 use super::agreement::agreement;
-use super::edges::{Sets, edges, net_edges, sides_by_edge};
+use super::edges::{edges, net_edges, sides_by_edge};
 use super::faces::{Faces, NEW};
 use super::holes::close;
 use super::manifold::separate;
@@ -13,7 +13,7 @@ use super::sides::bounding;
 use super::stitch::stitch;
 use super::{Fallback, RemeshConfig, RepairError, RepairMethod, RepairReport, Repaired};
 use crate::arrangement::{Pairs, arrange};
-use crate::data::{Monitor, Shape, TriangleSoup};
+use crate::data::{Monitor, Sets, Shape, TriangleSoup};
 use crate::math::area_vector;
 use crate::winding::WindingField;
 

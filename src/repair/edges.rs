@@ -36,29 +36,6 @@ pub fn opposite(triangles: &[[u32; 3]], side: u32) -> u32 {
     triangles[side as usize / 3][(side as usize + 2) % 3]
 }
 
-/// Sets that grow together (Galler & Fisher 1964); the least member of each stands for it.
-pub struct Sets(Vec<u32>);
-
-impl Sets {
-    pub fn new(count: usize) -> Sets {
-        Sets((0..count as u32).collect())
-    }
-
-    pub fn find(&mut self, mut member: u32) -> u32 {
-        while self.0[member as usize] != member {
-            // Half the path, for the next time.
-            self.0[member as usize] = self.0[self.0[member as usize] as usize];
-            member = self.0[member as usize];
-        }
-        member
-    }
-
-    pub fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
-}
-
 /// The edges that are run through more often in one direction than in the other, in that direction and as often.
 pub fn net_edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let sides = sides_by_edge(triangles);

@@ -1,7 +1,8 @@
 //! A closed, oriented soup as a manifold: what touches itself along an edge or in a vertex gets edges and vertices of its own.
 use super::RepairReport;
-use super::edges::{Sets, edges, ends, opposite, sides_by_edge};
+use super::edges::{edges, ends, opposite, sides_by_edge};
 use super::faces::Faces;
+use crate::data::Sets;
 use crate::math::Vec3;
 
 const NONE: u32 = u32::MAX;

@@ -1,8 +1,8 @@
 //! Which triangles of a closed soup bound the inside: those with w ≥ 1/2 behind and w < 1/2 in front.
 use super::RepairReport;
-use super::edges::{Sets, edges, sides_by_edge};
+use super::edges::{edges, sides_by_edge};
 use super::faces::{Faces, NEW};
-use crate::data::Monitor;
+use crate::data::{Monitor, Sets};
 use crate::math::{Vec3, barycentre, side_of_plane};
 use crate::winding::{Accuracy, FieldError, WindingField};
 

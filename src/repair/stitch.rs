@@ -1,9 +1,9 @@
 //! Open edges that lie next to each other are joined: vertices welded, edges split where a vertex of another lies on them.
 use super::RepairReport;
-use super::edges::{Sets, edges, ends, key, opposite, sides_by_edge};
+use super::edges::{edges, ends, key, opposite, sides_by_edge};
 use super::faces::Faces;
 use crate::bvh::Bvh;
-use crate::data::{Cancelled, Monitor};
+use crate::data::{Cancelled, Monitor, Sets};
 use crate::math::{Aabb, Vec3};
 
 /// Most items in a leaf of a tree.
