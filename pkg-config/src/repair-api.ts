@@ -21,7 +21,7 @@ export interface RepairOptions extends Omit<RemeshOptions, 'method'> {
    * splits what intersects; `remesh` makes the surface anew.
    */
   method?: 'conserve' | 'remesh';
-  /** Of `conserve`: open edges no farther apart are stitched; 1e-5 of the diagonal unless given. */
+  /** Of `conserve`: open edges no farther apart are stitched; unless given, 1e-5 of the diagonal, and up to 1e-3 if need be. */
   tolerance?: number;
   /** Of `conserve`: whether triangles are turned over where neighbours disagree; they are unless told otherwise. */
   orient?: boolean;
@@ -34,6 +34,8 @@ export interface RepairOptions extends Omit<RemeshOptions, 'method'> {
 /** What a repair has changed, and what came of it. Numbers are of triangles if they do not say otherwise. */
 export interface RepairReport {
   method: 'conserve' | 'remesh';
+  /** Within which open edges were stitched. */
+  tolerance: number;
   /** Dropped, as another has the same corners. */
   duplicates: number;
   /** Dropped in pairs of opposite orientation. */

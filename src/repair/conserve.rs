@@ -8,7 +8,7 @@ use super::faces::{Faces, NEW};
 use super::holes::close;
 use super::manifold::separate;
 use super::orientation::turn;
-use super::remesh::remesh;
+use super::remesh::{median_edge, remesh};
 use super::sides::bounding;
 use super::stitch::stitch;
 use super::{Fallback, RemeshConfig, RepairError, RepairMethod, RepairReport, Repaired};
@@ -20,7 +20,8 @@ use crate::winding::WindingField;
 /// How a soup is repaired with its own triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConserveConfig {
-    /// Open edges are stitched that are no farther apart, in millimetres. Where it is not given, 1e-5 of the diagonal.
+    /// Open edges are stitched that are no farther apart, in millimetres. Where it is not given, 1e-5 of the diagonal; and if that does
+    /// not agree with the field as it is to, up to 1e-3 of it, but no more than a tenth of the median edge.
     pub tolerance: Option<f64>,
     /// Whether triangles are turned over where neighbours disagree, and pieces that are inside out.
     pub orient: bool,
@@ -38,7 +39,9 @@ impl Default for ConserveConfig {
     }
 }
 
-const TOLERANCE: f64 = 1e-5;
+/// Tolerances in diagonals, and in median edges how wide all but the first may be.
+const TOLERANCES: [f64; 4] = [1e-5, 1e-4, 3e-4, 1e-3];
+const OF_EDGE: f64 = 0.1;
 /// Times that what is open after splitting is closed and split again.
 const ROUNDS: usize = 3;
 /// A piece with less volume than this times its area to the power 3/2 is a sheet: a plate of that shape is 3e-6 as thick as it is wide.
@@ -52,9 +55,60 @@ const SHEET: f64 = 1e-6;
 pub fn conserve(field: &WindingField, config: &ConserveConfig, monitor: &dyn Monitor) -> Result<Repaired, RepairError> {
     let Shape::Soup(soup) = field.shape() else { return Err(RepairError::CloudConserved) };
     check(config)?;
+    let mut best: Option<Repaired> = None;
+    let tolerances = tolerances(soup, config);
+    for (k, tolerance) in tolerances.iter().enumerate() {
+        let is_last = k + 1 == tolerances.len();
+        let Some(made) = stitched(field, soup, *tolerance, is_last, config, monitor)? else { continue };
+        let is_better = |best: &Repaired| made.report.agreement > best.report.agreement;
+        if best.as_ref().is_none_or(is_better) {
+            best = Some(made);
+        }
+        if best.as_ref().is_some_and(|best| lack_of(best, config).is_none()) {
+            break;
+        }
+    }
+    let Some(result) = best else { return Err(RepairError::Empty) };
+    match (lack_of(&result, config), &config.fallback) {
+        (None, _) => Ok(result),
+        (Some(fallback), Some(remeshing)) => {
+            let mut made = remesh(field, remeshing, monitor)?;
+            made.report.fallback = Some(fallback);
+            Ok(made)
+        }
+        (Some(Fallback::Empty), None) => Err(RepairError::Empty),
+        (Some(_), None) => Ok(result),
+    }
+}
+
+/// The tolerances that are tried one after the other.
+fn tolerances(soup: &TriangleSoup, config: &ConserveConfig) -> Vec<f64> {
+    if let Some(tolerance) = config.tolerance {
+        return vec![tolerance];
+    }
+    let (diagonal, edge) = (soup.bounds().diagonal(), median_edge(soup));
+    let wide = TOLERANCES[1..].iter().map(|share| share * diagonal).filter(|t| *t <= OF_EDGE * edge);
+    std::iter::once(TOLERANCES[0] * diagonal).chain(wide).collect()
+}
+
+/// The soup conserved with one tolerance; nothing if most of its edges are open then, unless that tolerance `is_last`.
+fn stitched(
+    field: &WindingField,
+    soup: &TriangleSoup,
+    tolerance: f64,
+    is_last: bool,
+    config: &ConserveConfig,
+    monitor: &dyn Monitor,
+) -> Result<Option<Repaired>, RepairError> {
     let mut report = RepairReport::default();
     let mut faces = Faces::of(soup);
-    put_right(&mut faces, config, &mut report, monitor)?;
+    put_right(&mut faces, tolerance, &mut report, monitor)?;
+    if !is_last && 2 * faces.open_edges() > faces.triangles.len() {
+        return Ok(None);
+    }
+    if config.orient {
+        turn(&mut faces, &mut report, monitor)?;
+    }
     let is_same = faces.triangles.len() == soup.len() && report == RepairReport::default();
     let rebuilt = (!is_same).then(|| WindingField::new(faces.to_soup(), Default::default()));
     let field = rebuilt.as_ref().unwrap_or(field);
@@ -68,18 +122,8 @@ pub fn conserve(field: &WindingField, config: &ConserveConfig, monitor: &dyn Mon
     }
     report.closed = separate(&mut faces, &mut report);
     drop_sheets(&mut faces, &mut report);
-    let result = finished(soup, &faces, report, field, monitor)?;
-    let lacks = lack_of(&result, config);
-    match (lacks, &config.fallback) {
-        (None, _) => Ok(result),
-        (Some(fallback), Some(remeshing)) => {
-            let mut made = remesh(field, remeshing, monitor)?;
-            made.report.fallback = Some(fallback);
-            Ok(made)
-        }
-        (Some(Fallback::Empty), None) => Err(RepairError::Empty),
-        (Some(_), None) => Ok(result),
-    }
+    report.tolerance = tolerance;
+    finished(soup, &faces, report, field, monitor).map(Some)
 }
 
 fn check(config: &ConserveConfig) -> Result<(), RepairError> {
@@ -92,19 +136,19 @@ fn check(config: &ConserveConfig) -> Result<(), RepairError> {
     }
 }
 
-/// What does not need the field: duplicates, what has no area, seams, orientation.
-fn put_right(faces: &mut Faces, config: &ConserveConfig, report: &mut RepairReport, monitor: &dyn Monitor) -> Result<(), RepairError> {
+/// Drops duplicates and what has no area, and stitches seams.
+fn put_right(
+    faces: &mut Faces,
+    tolerance: f64,
+    report: &mut RepairReport,
+    monitor: &dyn Monitor,
+) -> Result<(), RepairError> {
     faces.drop_degenerate(report);
     faces.merge_coincident(report);
     if faces.open_edges() > 0 {
-        let bounds = faces.to_soup().bounds();
-        stitch(faces, config.tolerance.unwrap_or(TOLERANCE * bounds.diagonal()), report, monitor)?;
+        stitch(faces, tolerance, report, monitor)?;
         faces.drop_degenerate(report);
         faces.merge_coincident(report);
-    }
-    if config.orient {
-        monitor.report(0.0, "orientation")?;
-        turn(faces, report);
     }
     Ok(())
 }

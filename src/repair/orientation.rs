@@ -2,14 +2,18 @@
 use super::RepairReport;
 use super::edges::{edges, ends, sides_by_edge};
 use super::faces::Faces;
+use crate::data::Monitor;
 use crate::math::{Vec3, barycentre};
-use crate::winding::{Accuracy, WindingField};
+use crate::winding::{Accuracy, FieldError, WindingField};
 
 const HALF: f64 = 0.5;
+/// Volumes below this times the area to the power 3/2 have no sign.
+const LEAST: f64 = 1e-6;
 
 /// Turns triangles over where those on either side of an edge disagree, the smaller area of each piece; then pieces whose volume,
 /// their openings closed, is negative, unless they bound a hollow of another.
-pub fn turn(faces: &mut Faces, report: &mut RepairReport) {
+pub fn turn(faces: &mut Faces, report: &mut RepairReport, monitor: &dyn Monitor) -> Result<(), FieldError> {
+    monitor.report(0.0, "orientation")?;
     let pieces = pieces(faces);
     let count = pieces.iter().map(|(piece, _)| piece + 1).max().unwrap_or(0) as usize;
     let mut areas = vec![[0.0; 2]; count];
@@ -19,11 +23,12 @@ pub fn turn(faces: &mut Faces, report: &mut RepairReport) {
     let mut turned: Vec<bool> =
         pieces.iter().map(|(piece, is_turned)| is_turned ^ (areas[*piece as usize][1] > areas[*piece as usize][0])).collect();
     turn_those(faces, &turned);
-    let is_inverted = inverted(faces, &pieces, count);
+    let is_inverted = inverted(faces, &pieces, count, monitor)?;
     let again: Vec<bool> = pieces.iter().map(|(piece, _)| is_inverted[*piece as usize]).collect();
     turn_those(faces, &again);
     turned.iter_mut().zip(again).for_each(|(turned, again)| *turned ^= again);
     report.flipped += turned.into_iter().filter(|turned| *turned).count();
+    Ok(())
 }
 
 fn turn_those(faces: &mut Faces, turned: &[bool]) {
@@ -71,23 +76,34 @@ fn across(faces: &Faces) -> Vec<u32> {
 }
 
 /// Pieces that enclose a negative volume, and are not the walls of a hollow: the others do not have w ≥ 1/2 beside them.
-fn inverted(faces: &Faces, pieces: &[(u32, bool)], count: usize) -> Vec<bool> {
-    let is_negative: Vec<bool> = volumes(faces, pieces, count).into_iter().map(|volume| volume < 0.0).collect();
-    if !is_negative.contains(&true) {
-        return is_negative;
-    }
+fn inverted(
+    faces: &Faces,
+    pieces: &[(u32, bool)],
+    count: usize,
+    monitor: &dyn Monitor,
+) -> Result<Vec<bool>, FieldError> {
     let mut largest = vec![(-1.0, 0); count];
+    let mut areas = vec![0.0; count];
     for (t, (piece, _)) in pieces.iter().enumerate() {
-        let own = &mut largest[*piece as usize];
-        if faces.area(t) > own.0 {
-            *own = (faces.area(t), t);
+        let (area, own) = (faces.area(t), &mut largest[*piece as usize]);
+        areas[*piece as usize] += area;
+        if area > own.0 {
+            *own = (area, t);
         }
     }
+    let volumes = volumes(faces, pieces, count).into_iter().zip(areas);
+    let mut is_inverted: Vec<bool> = volumes.map(|(volume, area)| volume < -LEAST * area * area.sqrt()).collect();
+    let those: Vec<usize> = (0..count).filter(|piece| is_inverted[*piece]).collect();
+    if those.is_empty() {
+        return Ok(is_inverted);
+    }
     let mut others = faces.clone();
-    others.retain(|t| !is_negative[pieces[t].0 as usize]);
+    others.retain(|t| !is_inverted[pieces[t].0 as usize]);
     let field = WindingField::new(others.to_soup(), Default::default());
-    let is_hollow = |piece: usize| field.at(barycentre(faces.corners(largest[piece].1)), Accuracy::EXACT) >= HALF;
-    (0..count).map(|piece| is_negative[piece] && !is_hollow(piece)).collect()
+    let places: Vec<Vec3> = those.iter().map(|piece| barycentre(faces.corners(largest[*piece].1))).collect();
+    let values = field.evaluate(&places, Accuracy::default(), monitor)?;
+    those.iter().zip(values).for_each(|(piece, w)| is_inverted[*piece] = w < HALF);
+    Ok(is_inverted)
 }
 
 /// What each piece encloses with a cone over its open sides, from the middle of these.

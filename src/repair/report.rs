@@ -16,6 +16,8 @@ pub enum RepairMethod {
 #[serde(rename_all = "camelCase")]
 pub struct RepairReport {
     pub method: RepairMethod,
+    /// Within which open edges were stitched, in millimetres.
+    pub tolerance: f64,
     /// Dropped, as another has the same corners and the same orientation; or the opposite one, in soups that have each face from both
     /// sides.
     pub duplicates: usize,

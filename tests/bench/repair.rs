@@ -1,7 +1,7 @@
 //! Repairs models and damaged copies of them, for `repairs.mjs` to hand the results to manifold-3d.
 //!
 //! ```text
-//! repair FOLDER [NAME]      all cases, or those whose name begins so: writes FOLDER/<case>.<method>.f64 and .u32, prints JSON lines
+//! repair FOLDER [NAME [RESOLUTION [SHARP]]]   all cases, or those whose name begins so; 0 for the default: writes FOLDER/<case>.<method>.f64 and .u32, prints JSON lines
 //! ```
 //! Models are those of target/bench-models. `.f64` holds positions xyzxyz…, `.u32` three indices for each triangle.
 use fast_winding::TriangleSoup;
@@ -51,6 +51,10 @@ fn main() {
     let mut words = std::env::args().skip(1);
     let folder = words.next().expect("a folder for the results");
     let wanted = words.next().unwrap_or_default();
+    let number = |word: String| word.parse::<f64>().expect("a number");
+    let resolution = words.next().map(number).filter(|n| *n > 0.0).map(|n| n as usize);
+    let sharp = words.next().map_or(RemeshConfig::default().sharp, |word| Some(number(word)).filter(|a| *a > 0.0));
+    let remeshing = RemeshConfig { resolution, sharp, ..RemeshConfig::default() };
     std::fs::create_dir_all(&folder).expect("the folder can be made");
     for (name, model, damage) in CASES.iter().filter(|case| case.0.starts_with(&wanted)) {
         let path = format!("{}/target/bench-models/{model}.ply", env!("CARGO_MANIFEST_DIR"));
@@ -62,7 +66,7 @@ fn main() {
             let field = WindingField::new(soup.clone(), FieldConfig::default());
             let made = match method {
                 "conserve" => conserve(&field, &ConserveConfig { fallback: None, ..Default::default() }, &Silent),
-                _ => remesh(&field, &RemeshConfig::default(), &Silent),
+                _ => remesh(&field, &remeshing, &Silent),
             };
             let seconds = start.elapsed().as_secs_f64();
             println!("{}", told(name, method, &soup, made, seconds, Path::new(&folder)));
