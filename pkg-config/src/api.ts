@@ -1,5 +1,7 @@
 import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
 import type { RemeshOptions, Repaired, RepairOptions } from './repair-api.js';
+import type { CheckOptions, CheckReport, FaceOrientOptions, OrientedFaces } from './check-api.js';
+export type * from './check-api.js';
 export type * from './print-api.js';
 export type * from './repair-api.js';
 
@@ -248,6 +250,13 @@ export interface Soup extends Shape {
   geometry(): Promise<{ positions: Float32Array; indices: Uint32Array; origin: Float64Array }>;
   /** Where the surface is open: two ends (xyzxyz) for each of `count` edges. */
   boundaryEdges(): Promise<{ positions: Float32Array; origin: Float64Array; count: number }>;
+  /** What is wrong with it, what the winding field makes of it, and whether it will print. */
+  check(options?: CheckOptions): Promise<CheckReport>;
+  /**
+   * Turns faces so that they run with their neighbours and face outward. Cavities stay cavities as far as that can be told. Later
+   * calls are about the soup as it is then.
+   */
+  orient(options?: FaceOrientOptions): Promise<OrientedFaces>;
   /**
    * Points with normals and areas of the mesh: its vertices (the default), each with a third of the triangles around it, or the
    * barycentres of its triangles. What has no area or direction is left out, with a warning.

@@ -18,7 +18,7 @@ const WITHOUT_FIELD = ['free', 'export', 'geometry'];
 const FUNCTIONS = { exportLayer: false, exportLayers: false, toolpaths: true, gcode: false, printSettings: false } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'repair', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'check', 'orientFaces', 'surface', 'slice', 'layerSpans', 'repair', ...Object.keys(FUNCTIONS)];
 
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {

@@ -1,5 +1,6 @@
 // Repaired meshes, as the package's callers see them. Lengths are in millimetres, angles in degrees.
 import type { CallOptions } from './api.js';
+import type { CheckReport } from './check-api.js';
 
 /** How a surface is made anew. */
 export interface RemeshOptions extends CallOptions {
@@ -12,6 +13,8 @@ export interface RemeshOptions extends CallOptions {
   sharp?: number;
   /** Pieces with less than this share of the largest one's area are left out. */
   minComponent?: number;
+  /** Whether the shape is checked before and after (the default). */
+  check?: boolean;
 }
 
 /** How a soup is repaired. */
@@ -100,4 +103,7 @@ export interface Repaired<Soup> {
   report: RepairReport;
   /** Of each triangle, the one of the input that it is or is a part of, 4294967295 for new ones; empty if all are new. */
   sources: Uint32Array;
+  /** What `check` says of the soup, and of the result; absent if not wanted, the first for clouds too. */
+  before?: CheckReport;
+  after?: CheckReport;
 }

@@ -152,6 +152,14 @@ class SoupShape extends BaseShape {
   boundaryEdges(): unknown {
     return this.ask('boundaryEdges', []);
   }
+
+  check(options?: CallOptions): unknown {
+    return this.ask('check', [forEngine(options)], options);
+  }
+
+  orient(options?: CallOptions): unknown {
+    return this.ask('orientFaces', [forEngine(options)], options);
+  }
 }
 
 class CloudShape extends BaseShape {

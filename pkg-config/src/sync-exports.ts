@@ -2,6 +2,7 @@ export type * from './sync-api.js';
 export type {
   Accuracy, Bounds, Bytes, CallOptions, CloudArrays, CloudFormat, HeatMap, Info, Layer, Mesh, OrientOptions, Polygon,
   Prepared, ReadOptions,
+  BoundaryLoop, CheckOptions, CheckReport, FaceOrientOptions, FieldRegion, IndexPairs, Indices, OrientedFaces, ReasonKind, Shell,
   GCode, LayerPaths, PathKind, PrinterProfile, Regions, RequiredProfile, ToolpathSettings, Toolpaths, SliceOptions, SoupArrays, SoupFormat, SurfaceOptions, VoxelOptions, Voxels, Warning,
 } from './api.js';
 export { WindingError, type ErrorCode } from './error.js';

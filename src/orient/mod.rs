@@ -1,10 +1,13 @@
-//! Normals of clouds that have none: those that make the winding number consistent with itself.
+//! Normals of clouds that have none: those that make the winding number consistent with itself. Faces of soups that run
+//! either way: turned outward.
 mod consistency;
 mod schedule;
+mod soup;
 mod stochastic;
 
 pub use consistency::{Bounded, ConsistencyConfig, consistent_area_vectors};
 pub use schedule::Widths;
+pub use soup::{FaceConfig, FaceMethod, OrientReport, orient_soup};
 pub use stochastic::{LossWeights, StochasticConfig, stochastic_area_vectors};
 
 use crate::data::{Monitor, OrientedCloud, PointCloud, Warning, WarningKind};

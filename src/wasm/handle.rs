@@ -307,6 +307,12 @@ impl Handle {
         }
     }
 
+    /// Puts another soup in the place of this shape; its field is gone.
+    pub(super) fn replace_soup(&mut self, soup: TriangleSoup) {
+        self.source = Source::Soup(Arc::new(soup));
+        self.field = None;
+    }
+
     pub(super) fn bounds(&self) -> Aabb {
         match &self.source {
             Source::Soup(soup) => soup.bounds(),

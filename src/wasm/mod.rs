@@ -1,6 +1,7 @@
 //! The core as JavaScript calls it: convert, call, convert. Nothing here knows geometry.
 //!
 //! What is exported is the interface between the WebAssembly and the package's own TypeScript, which users see.
+mod checking;
 mod convert;
 mod failure;
 #[cfg(feature = "faults")]

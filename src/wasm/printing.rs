@@ -83,7 +83,7 @@ pub fn print_settings(settings: JsValue, profile: JsValue, size: JsValue) -> Res
 }
 
 /// What a JavaScript object says; an error where it has a name that the defaults do not have: it would be overlooked.
-fn known<T: Serialize + DeserializeOwned + Default>(given: JsValue) -> Result<T, Failure> {
+pub(super) fn known<T: Serialize + DeserializeOwned + Default>(given: JsValue) -> Result<T, Failure> {
     check_names(&given, &plain(&T::default())?, "")?;
     from_js(given)
 }
@@ -107,7 +107,7 @@ fn check_names(given: &JsValue, defaults: &JsValue, path: &str) -> Result<(), Fa
 }
 
 /// As a plain object.
-fn plain(value: &impl Serialize) -> Result<JsValue, Failure> {
+pub(super) fn plain(value: &impl Serialize) -> Result<JsValue, Failure> {
     serde_wasm_bindgen::to_value(value).map_err(Failure::invalid)
 }
 

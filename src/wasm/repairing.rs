@@ -3,6 +3,7 @@ use super::failure::{Failure, object};
 use super::handle::Handle;
 use super::job::Job;
 use super::options::from_js;
+use super::printing::plain;
 use crate::repair::{ConserveConfig, RemeshConfig, RepairError, Repaired, conserve, remesh};
 use js_sys::{Object, Uint32Array};
 use serde::Deserialize;
@@ -30,6 +31,7 @@ struct RepairOptions {
     orient: Option<bool>,
     least_agreement: Option<f64>,
     fallback: Option<bool>,
+    check: Option<bool>,
 }
 
 impl RepairOptions {
@@ -56,7 +58,8 @@ impl RepairOptions {
 
 #[wasm_bindgen]
 impl Handle {
-    /// A closed manifold that bounds {w ≥ 1/2}: `{ handle, report, sources }`; clouds are remeshed whatever the method.
+    /// A closed manifold that bounds {w ≥ 1/2}: `{ handle, report, sources, before, after }`, the last two as [`Handle::check`] gives them,
+    /// unless they are not wanted; nothing is before of a cloud.
     ///
     /// # Errors
     /// If and only if a cloud has no normals, an option is out of range, nothing is inside, memory does not suffice or the call is
@@ -71,12 +74,20 @@ impl Handle {
             MethodName::Remesh => remesh(field, &options.remeshing(), job),
         };
         let Repaired { soup, sources, report } = made.map_err(Failure::from)?;
-        let report = serde_wasm_bindgen::to_value(&report).map_err(Failure::invalid)?;
-        let sources = Uint32Array::from(&sources[..]);
+        let mut made = Handle::of_soup(soup, "repaired");
+        let (mut before, mut after) = (JsValue::UNDEFINED, JsValue::UNDEFINED);
+        if options.check != Some(false) {
+            if !is_cloud {
+                before = self.check(JsValue::UNDEFINED, job)?;
+            }
+            after = made.check(JsValue::UNDEFINED, job)?;
+        }
         Ok(object([
-            ("handle", Handle::of_soup(soup, "repaired").into()),
-            ("report", report),
-            ("sources", sources.into()),
+            ("handle", made.into()),
+            ("report", plain(&report)?),
+            ("sources", Uint32Array::from(&sources[..]).into()),
+            ("before", before),
+            ("after", after),
         ]))
     }
 }
