@@ -4,7 +4,9 @@ mod common;
 use common::*;
 use fast_winding::data::{Silent, SurfaceMesh, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3, area_vector};
-use fast_winding::repair::{ConserveConfig, Fallback, RemeshConfig, RepairError, RepairMethod, Repaired, conserve, remesh};
+use fast_winding::repair::{
+    ConserveConfig, Fallback, RemeshConfig, RepairError, RepairMethod, Repaired, conserve, remesh,
+};
 use fast_winding::winding::{FieldConfig, WindingField};
 
 fn field(soup: &TriangleSoup) -> WindingField {
@@ -194,8 +196,11 @@ fn turned_faces_are_turned_back_and_hollows_stay() {
     let hollow = joined(&[cube(1.0), flipped(&cube(0.5))]);
     for (whole, share) in [(&solid, 0.01), (&solid, 0.1), (&solid, 1.0), (&hollow, 0.1)] {
         let mut next = random(7);
-        let triangles: Vec<[u32; 3]> =
-            whole.triangles().iter().map(|[a, b, c]| if next() < share { [*a, *c, *b] } else { [*a, *b, *c] }).collect();
+        let triangles: Vec<[u32; 3]> = whole
+            .triangles()
+            .iter()
+            .map(|[a, b, c]| if next() < share { [*a, *c, *b] } else { [*a, *b, *c] })
+            .collect();
         let turned = triangles.iter().zip(whole.triangles()).filter(|(a, b)| a != b).count();
         let (made, _) = conserved(&TriangleSoup::new(whole.positions().to_vec(), triangles).unwrap());
         assert_eq!(made.report.flipped, turned);

@@ -146,7 +146,8 @@ impl Work<'_> {
                 continue;
             };
             dirty.push(*triangle);
-            let chain: Vec<u32> = [ends[0]].into_iter().chain(between.iter().copied()).chain([ends[1]]).collect();
+            let chain: Vec<u32> =
+                [ends[0]].into_iter().chain(between.iter().copied()).chain([ends[1]]).collect();
             segments.extend(
                 chain.windows(2).map(|pair| (*triangle, [pair[0].min(pair[1]), pair[0].max(pair[1])])),
             );

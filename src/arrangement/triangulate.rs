@@ -197,7 +197,8 @@ fn near(
         let [a, b, c] = [side.from().data().at, side.to().data().at, opposite.data().at];
         let (along, off) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
         let length_squared = dot(along, along);
-        let cross = (i128::from(along[0]) * i128::from(off[1]) - i128::from(along[1]) * i128::from(off[0])) as f64;
+        let cross =
+            (i128::from(along[0]) * i128::from(off[1]) - i128::from(along[1]) * i128::from(off[0])) as f64;
         let share = dot(along, off);
         if share > 0.0 && share < length_squared && cross * cross <= NEAR * NEAR * length_squared {
             events.push(Event::Through(ends, opposite.data().point));

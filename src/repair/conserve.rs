@@ -35,7 +35,12 @@ pub struct ConserveConfig {
 
 impl Default for ConserveConfig {
     fn default() -> Self {
-        ConserveConfig { tolerance: None, orient: true, least_agreement: 0.8, fallback: Some(RemeshConfig::default()) }
+        ConserveConfig {
+            tolerance: None,
+            orient: true,
+            least_agreement: 0.8,
+            fallback: Some(RemeshConfig::default()),
+        }
     }
 }
 
@@ -52,7 +57,11 @@ const SHEET: f64 = 1e-6;
 /// # Errors
 /// If and only if `field` is that of a cloud, an option is out of range, nothing is inside, memory does not suffice or the monitor
 /// cancels.
-pub fn conserve(field: &WindingField, config: &ConserveConfig, monitor: &dyn Monitor) -> Result<Repaired, RepairError> {
+pub fn conserve(
+    field: &WindingField,
+    config: &ConserveConfig,
+    monitor: &dyn Monitor,
+) -> Result<Repaired, RepairError> {
     let Shape::Soup(soup) = field.shape() else { return Err(RepairError::CloudConserved) };
     check(config)?;
     let mut best: Option<Repaired> = None;
@@ -72,8 +81,14 @@ pub fn conserve(field: &WindingField, config: &ConserveConfig, monitor: &dyn Mon
     match (lack_of(&result, config), &config.fallback) {
         (None, _) => Ok(result),
         (Some(fallback), Some(remeshing)) => {
-            let mut made = remesh(field, remeshing, monitor)?;
-            made.report.fallback = Some(fallback);
+            let (mut faces, mut report) = righted(soup, tolerances[0], monitor)?;
+            if config.orient {
+                turn(&mut faces, &mut report, monitor)?;
+            }
+            let is_turned = report.flipped > 0;
+            let rebuilt = is_turned.then(|| WindingField::new(faces.to_soup(), Default::default()));
+            let mut made = remesh(rebuilt.as_ref().unwrap_or(field), remeshing, monitor)?;
+            (made.report.fallback, made.report.flipped) = (Some(fallback), report.flipped);
             Ok(made)
         }
         (Some(Fallback::Empty), None) => Err(RepairError::Empty),
@@ -100,9 +115,7 @@ fn stitched(
     config: &ConserveConfig,
     monitor: &dyn Monitor,
 ) -> Result<Option<Repaired>, RepairError> {
-    let mut report = RepairReport::default();
-    let mut faces = Faces::of(soup);
-    put_right(&mut faces, tolerance, &mut report, monitor)?;
+    let (mut faces, mut report) = righted(soup, tolerance, monitor)?;
     if !is_last && 2 * faces.open_edges() > faces.triangles.len() {
         return Ok(None);
     }
@@ -136,21 +149,21 @@ fn check(config: &ConserveConfig) -> Result<(), RepairError> {
     }
 }
 
-/// Drops duplicates and what has no area, and stitches seams.
-fn put_right(
-    faces: &mut Faces,
+/// The triangles without duplicates and those without area, seams stitched.
+fn righted(
+    soup: &TriangleSoup,
     tolerance: f64,
-    report: &mut RepairReport,
     monitor: &dyn Monitor,
-) -> Result<(), RepairError> {
-    faces.drop_degenerate(report);
-    faces.merge_coincident(report);
+) -> Result<(Faces, RepairReport), RepairError> {
+    let (mut faces, mut report) = (Faces::of(soup), RepairReport::default());
+    faces.drop_degenerate(&mut report);
+    faces.merge_coincident(&mut report);
     if faces.open_edges() > 0 {
-        stitch(faces, tolerance, report, monitor)?;
-        faces.drop_degenerate(report);
-        faces.merge_coincident(report);
+        stitch(&mut faces, tolerance, &mut report, monitor)?;
+        faces.drop_degenerate(&mut report);
+        faces.merge_coincident(&mut report);
     }
-    Ok(())
+    Ok((faces, report))
 }
 
 /// The parts of a closed soup that bound its inside.

@@ -61,7 +61,12 @@ fn bounding_places(
 }
 
 /// The distance of each place from a soup, as far as it is looked for.
-fn nearest(soup: &TriangleSoup, places: &[Vec3], spacing: f64, monitor: &dyn Monitor) -> Result<Vec<f64>, FieldError> {
+fn nearest(
+    soup: &TriangleSoup,
+    places: &[Vec3],
+    spacing: f64,
+    monitor: &dyn Monitor,
+) -> Result<Vec<f64>, FieldError> {
     let boxes: Vec<Aabb> = (0..soup.len()).map(|t| Aabb::around(soup.corners(t))).collect();
     let bvh = Bvh::build(&boxes, LEAF_SIZE);
     let mut found = vec![0.0; places.len()];

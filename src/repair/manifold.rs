@@ -62,7 +62,9 @@ fn around(faces: &Faces, same: &[(u64, u32)]) -> Vec<(u32, bool)> {
         })
         .collect();
     // In the same place the inside ends before it begins anew: no wall without thickness comes to be.
-    all.sort_unstable_by(|one, other| (one.0, !one.1, one.2).partial_cmp(&(other.0, !other.1, other.2)).expect("angles are numbers"));
+    all.sort_unstable_by(|one, other| {
+        (one.0, !one.1, one.2).partial_cmp(&(other.0, !other.1, other.2)).expect("angles are numbers")
+    });
     all.into_iter().map(|(_, is_up, side)| (side, is_up)).collect()
 }
 

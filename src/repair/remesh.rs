@@ -34,7 +34,12 @@ impl RemeshConfig {
 
 impl Default for RemeshConfig {
     fn default() -> Self {
-        RemeshConfig { resolution: None, spacing: None, sharp: Some(SurfaceConfig::SHARP), min_component: None }
+        RemeshConfig {
+            resolution: None,
+            spacing: None,
+            sharp: Some(SurfaceConfig::SHARP),
+            min_component: None,
+        }
     }
 }
 
@@ -43,7 +48,11 @@ impl Default for RemeshConfig {
 ///
 /// # Errors
 /// If and only if the shape is empty or nothing is inside, an option is out of range, memory does not suffice or the monitor cancels.
-pub fn remesh(field: &WindingField, config: &RemeshConfig, monitor: &dyn Monitor) -> Result<Repaired, RepairError> {
+pub fn remesh(
+    field: &WindingField,
+    config: &RemeshConfig,
+    monitor: &dyn Monitor,
+) -> Result<Repaired, RepairError> {
     let longest = field.bounds().size().max_element();
     let Shape::Soup(input) = field.shape() else { return traced(field, config, config.spacing, monitor) };
     if config.spacing.is_some() || config.resolution.is_some() || longest == 0.0 {

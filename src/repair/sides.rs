@@ -41,9 +41,19 @@ pub fn bounding(
     let mut votes = vec![[0.0; 3]; sheets.len()];
     for ((s, q), value) in asked.iter().zip(&places).zip(values) {
         let sheet = &sheets[*s];
-        let before = value - order[sheet.pieces.clone()].iter().map(|piece| behind(faces, pieces, sheet, piece.1, *q)).sum::<f64>();
+        let before = value
+            - order[sheet.pieces.clone()]
+                .iter()
+                .map(|piece| behind(faces, pieces, sheet, piece.1, *q))
+                .sum::<f64>();
         let back = before + f64::from(sheet.copies);
-        let answer = if before >= HALF { 1 } else if back >= HALF { 0 } else { 2 };
+        let answer = if before >= HALF {
+            1
+        } else if back >= HALF {
+            0
+        } else {
+            2
+        };
         votes[patches[*s] as usize][answer] += weight(pieces, sheet);
     }
     let mut kept = Faces { positions: pieces.positions.clone(), triangles: vec![], sources: vec![] };
@@ -54,7 +64,11 @@ pub fn bounding(
             let own = order[sheet.pieces.clone()].iter().map(|piece| piece.1);
             let same = own.clone().find(|p| is_same_way(pieces.triangles[*p as usize], sheet.triangle));
             let piece = same.unwrap_or(order[sheet.pieces.start].1);
-            found.push((if same.is_some() { pieces.triangles[piece as usize] } else { sheet.triangle }, source(faces, pieces, piece), piece));
+            found.push((
+                if same.is_some() { pieces.triangles[piece as usize] } else { sheet.triangle },
+                source(faces, pieces, piece),
+                piece,
+            ));
         } else if within >= without {
             report.internal += 1;
         } else {
@@ -110,7 +124,8 @@ fn patches_of(sheets: &[Sheet]) -> Vec<u32> {
 
 fn weight(pieces: &Faces, sheet: &Sheet) -> f64 {
     // Above zero, so that a patch without area has an answer too.
-    crate::math::area_vector(sheet.triangle.map(|v| pieces.positions[v as usize])).length() + f64::MIN_POSITIVE
+    crate::math::area_vector(sheet.triangle.map(|v| pieces.positions[v as usize])).length()
+        + f64::MIN_POSITIVE
 }
 
 /// The largest sheets of each patch.
@@ -118,7 +133,9 @@ fn largest_of(pieces: &Faces, sheets: &[Sheet], patches: &[u32]) -> Vec<usize> {
     let mut all: Vec<(u32, f64, usize)> =
         (0..sheets.len()).map(|s| (patches[s], -weight(pieces, &sheets[s]), s)).collect();
     all.sort_unstable_by(|one, other| one.partial_cmp(other).expect("areas are numbers"));
-    all.chunk_by(|one, other| one.0 == other.0).flat_map(|patch| patch.iter().take(ASKED).map(|s| s.2)).collect()
+    all.chunk_by(|one, other| one.0 == other.0)
+        .flat_map(|patch| patch.iter().take(ASKED).map(|s| s.2))
+        .collect()
 }
 
 /// What w falls by on the way from `q` through the triangle of a piece to the front of its sheet, if q is not there.

@@ -51,7 +51,8 @@ fn halves(points: &[Vec3], polygon: &[u32], beside: &[Vec3]) -> [Part; 2] {
     }
     let (_, i, j) = best;
     let inner = (polygon[i..=j].to_vec(), [&beside[i..j], &[Vec3::ZERO]].concat());
-    let outer = ([&polygon[j..], &polygon[..=i]].concat(), [&beside[j..], &beside[..i], &[Vec3::ZERO]].concat());
+    let outer =
+        ([&polygon[j..], &polygon[..=i]].concat(), [&beside[j..], &beside[..i], &[Vec3::ZERO]].concat());
     [inner, outer]
 }
 
@@ -65,7 +66,8 @@ struct Table {
 impl Table {
     fn of(points: Vec<Vec3>, beside: &[Vec3]) -> Table {
         let count = points.len();
-        let mut table = Table { costs: vec![(0.0, 0.0); count * count], tops: vec![0; count * count], points };
+        let mut table =
+            Table { costs: vec![(0.0, 0.0); count * count], tops: vec![0; count * count], points };
         let mut normals = vec![Vec3::ZERO; count * count];
         (0..count - 1).for_each(|k| normals[k * count + k + 1] = beside[k]);
         for length in 2..count {
@@ -129,7 +131,8 @@ mod tests {
 
     #[test]
     fn a_flat_polygon_with_a_bay_is_covered_once() {
-        let outline = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (3.0, 4.0), (3.0, 1.0), (1.0, 1.0), (1.0, 4.0), (0.0, 4.0)];
+        let outline =
+            [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (3.0, 4.0), (3.0, 1.0), (1.0, 1.0), (1.0, 4.0), (0.0, 4.0)];
         let points = outline.map(|(x, y)| Vec3::new(x, y, 0.0));
         let triangles = span(&points, &[Vec3::Z; 8]);
         assert_eq!(triangles.len(), 6);
@@ -143,7 +146,10 @@ mod tests {
         let mut points = vec![Vec3::new(100.0, -1.0, 0.0), Vec3::new(100.0, 0.0, 0.0)];
         for tooth in (0..100).rev() {
             let x = f64::from(tooth);
-            points.extend([(x + 0.8, 0.0), (x + 0.7, 3.0), (x + 0.3, 3.0), (x + 0.2, 0.0)].map(|(x, y)| Vec3::new(x, y, 0.0)));
+            points.extend(
+                [(x + 0.8, 0.0), (x + 0.7, 3.0), (x + 0.3, 3.0), (x + 0.2, 0.0)]
+                    .map(|(x, y)| Vec3::new(x, y, 0.0)),
+            );
         }
         points.extend([Vec3::ZERO, Vec3::new(0.0, -1.0, 0.0)]);
         let triangles = span(&points, &vec![Vec3::Z; points.len()]);
@@ -154,7 +160,14 @@ mod tests {
     #[test]
     fn a_hole_in_a_dome_follows_its_bend() {
         // Around an edge of a cube: bent once, not flat across.
-        let points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (1.0, 1.0, -1.0), (0.0, 1.0, -1.0), (0.0, 1.0, 0.0)];
+        let points = [
+            (0.0, 0.0, 0.0),
+            (1.0, 0.0, 0.0),
+            (1.0, 1.0, 0.0),
+            (1.0, 1.0, -1.0),
+            (0.0, 1.0, -1.0),
+            (0.0, 1.0, 0.0),
+        ];
         let points = points.map(|(x, y, z)| Vec3::new(x, y, z));
         let beside = [Vec3::Z, Vec3::Z, Vec3::Y, Vec3::Y, Vec3::Y, Vec3::Z];
         let triangles = span(&points, &beside);

@@ -105,7 +105,8 @@ fn split_open(faces: &mut Faces, tolerance: f64) -> usize {
     let mut split = 0;
     for side in sides {
         let (t, [a, b]) = (side as usize / 3, ends(&faces.triangles, side));
-        let on_side = if is_touched[t] { vec![] } else { on_segment(faces, side, &vertices, &bvh, tolerance) };
+        let on_side =
+            if is_touched[t] { vec![] } else { on_segment(faces, side, &vertices, &bvh, tolerance) };
         if on_side.is_empty() {
             continue;
         }
@@ -130,9 +131,7 @@ fn on_segment(faces: &Faces, side: u32, vertices: &[u32], bvh: &Bvh, tolerance: 
         return Vec::new();
     }
     let segment = Aabb::around([from, to]).padded(tolerance);
-    let touches = |bounds: &Aabb| {
-        bounds.min.cmple(segment.max).all() && segment.min.cmple(bounds.max).all()
-    };
+    let touches = |bounds: &Aabb| bounds.min.cmple(segment.max).all() && segment.min.cmple(bounds.max).all();
     let direction = (to - from) / length;
     bvh.for_each(touches, |k| {
         let v = vertices[k];

@@ -67,7 +67,8 @@ impl Handle {
     pub fn repair(&mut self, options: JsValue, job: &Job) -> Result<Object, JsValue> {
         let options: RepairOptions = from_js(options)?;
         let is_cloud = self.soup().is_none();
-        let method = options.method.unwrap_or(if is_cloud { MethodName::Remesh } else { MethodName::Conserve });
+        let method =
+            options.method.unwrap_or(if is_cloud { MethodName::Remesh } else { MethodName::Conserve });
         let field = self.field(None, job)?;
         let made = match method {
             MethodName::Conserve => conserve(field, &options.conserving(), job),

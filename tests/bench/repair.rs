@@ -5,6 +5,7 @@
 //! ```
 //! Models are those of target/bench-models. `.f64` holds positions xyzxyz…, `.u32` three indices for each triangle.
 use fast_winding::TriangleSoup;
+use fast_winding::check::{CheckConfig, check};
 use fast_winding::data::Silent;
 use fast_winding::io::{self, Geometry};
 use fast_winding::repair::{ConserveConfig, RemeshConfig, RepairError, Repaired, conserve, remesh};
@@ -18,7 +19,11 @@ use std::time::Instant;
 enum Damage {
     None,
     /// Share of the faces deleted, flipped, doubled.
-    Faces { deleted: f64, flipped: f64, doubled: f64 },
+    Faces {
+        deleted: f64,
+        flipped: f64,
+        doubled: f64,
+    },
     /// A second copy, shifted by this share of the diagonal.
     Overlap(f64),
 }
@@ -53,7 +58,8 @@ fn main() {
     let wanted = words.next().unwrap_or_default();
     let number = |word: String| word.parse::<f64>().expect("a number");
     let resolution = words.next().map(number).filter(|n| *n > 0.0).map(|n| n as usize);
-    let sharp = words.next().map_or(RemeshConfig::default().sharp, |word| Some(number(word)).filter(|a| *a > 0.0));
+    let sharp =
+        words.next().map_or(RemeshConfig::default().sharp, |word| Some(number(word)).filter(|a| *a > 0.0));
     let remeshing = RemeshConfig { resolution, sharp, ..RemeshConfig::default() };
     std::fs::create_dir_all(&folder).expect("the folder can be made");
     for (name, model, damage) in CASES.iter().filter(|case| case.0.starts_with(&wanted)) {
@@ -65,7 +71,9 @@ fn main() {
             let start = Instant::now();
             let field = WindingField::new(soup.clone(), FieldConfig::default());
             let made = match method {
-                "conserve" => conserve(&field, &ConserveConfig { fallback: None, ..Default::default() }, &Silent),
+                "conserve" => {
+                    conserve(&field, &ConserveConfig { fallback: None, ..Default::default() }, &Silent)
+                }
                 _ => remesh(&field, &remeshing, &Silent),
             };
             let seconds = start.elapsed().as_secs_f64();
@@ -83,12 +91,21 @@ fn told(
     folder: &Path,
 ) -> serde_json::Value {
     match made {
-        Err(error) => json!({ "case": name, "method": method, "triangles": soup.len(), "error": error.to_string() }),
+        Err(error) => {
+            json!({ "case": name, "method": method, "triangles": soup.len(), "error": error.to_string() })
+        }
         Ok(made) => {
+            let config =
+                CheckConfig { limit: 10, thickness: false, resolution: 0, samples: 0, ..Default::default() };
+            let found =
+                check(&WindingField::new(made.soup.clone(), FieldConfig::default()), &config, &Silent);
+            let found = found.expect("the settings are in range");
+            let crossings = found.self_intersections.map_or(0, |pairs| pairs.count);
             write(&made.soup, folder, &format!("{name}.{method}"));
             json!({
                 "case": name, "method": method, "triangles": soup.len(), "seconds": seconds,
                 "result": made.soup.len(), "vertices": made.soup.positions().len(), "report": made.report,
+                "crossings": crossings, "open": found.boundary.loops.count,
             })
         }
     }
@@ -97,8 +114,10 @@ fn told(
 fn write(soup: &TriangleSoup, folder: &Path, name: &str) {
     let numbers = soup.positions().iter().flat_map(|p| p.to_array()).flat_map(f64::to_le_bytes);
     let indices = soup.triangles().as_flattened().iter().flat_map(|v| v.to_le_bytes());
-    std::fs::write(folder.join(format!("{name}.f64")), numbers.collect::<Vec<u8>>()).expect("it can be written");
-    std::fs::write(folder.join(format!("{name}.u32")), indices.collect::<Vec<u8>>()).expect("it can be written");
+    std::fs::write(folder.join(format!("{name}.f64")), numbers.collect::<Vec<u8>>())
+        .expect("it can be written");
+    std::fs::write(folder.join(format!("{name}.u32")), indices.collect::<Vec<u8>>())
+        .expect("it can be written");
     let mut file = std::fs::File::create(folder.join(format!("{name}.ply"))).expect("it can be written");
     io::write_soup(soup, io::MeshFormat::Ply, &mut file).expect("it can be written");
 }

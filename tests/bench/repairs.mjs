@@ -66,9 +66,9 @@ const folder = join(tmpdir(), 'fast-winding-repairs');
 const output = execFileSync('cargo', ['run', '--release', '--quiet', '--example', 'repair', '--', folder, wanted], { cwd: root, maxBuffer: 1 << 28 });
 const results = output.toString().trim().split('\n').map((line) => JSON.parse(line));
 const peer = await manifold();
-const columns = ['case', 'method', 'triangles', 'result', 'kept', 'holes', 'split', 'flipped', 'agreement', 'closed', 'manifold-3d', 'volumes apart', 'seconds'];
+const columns = ['case', 'method', 'triangles', 'result', 'kept', 'holes', 'split', 'flipped', 'agreement', 'closed', 'pairs that cross', 'manifold-3d', 'volumes apart', 'seconds'];
 const nothing = Object.fromEntries(columns.map((column) => [column, '']));
-const rows = results.map(({ case: name, method, triangles, seconds, result, report, error }) => {
+const rows = results.map(({ case: name, method, triangles, seconds, result, report, crossings, error }) => {
   if (error) return { ...nothing, case: name, method, triangles, result: error };
   const stem = join(folder, `${name}.${method}`);
   const positions = read(`${stem}.f64`, Float64Array);
@@ -85,6 +85,7 @@ const rows = results.map(({ case: name, method, triangles, seconds, result, repo
     flipped: report.flipped,
     agreement: share(report.agreement),
     closed: report.closed ? 'yes' : 'no',
+    'pairs that cross': crossings,
     'manifold-3d': taken.status,
     'volumes apart': taken.volume === undefined ? '' : `${apart.toExponential(1)} (${GOAL.toExponential(0)})`,
     seconds: seconds.toFixed(2),
