@@ -6,6 +6,7 @@ mod first_hit;
 mod morton;
 mod narrow;
 mod nearest;
+mod overlaps;
 mod sort;
 
 pub use build::cut_at_highest_bit;
