@@ -23,7 +23,7 @@ const IN_MORE = new RegExp(
     String.raw`fast_winding\[[0-9a-f]+\]::winding::field::WindingField>::(save|load)$|wasm::handle::Handle>::load$`,
     String.raw`\b(i_(overlay|float|shape|tree|key_sort)|spade)\[`,
     `^(toolpaths|gcode|printSettings|exportLayers?|exportVoxels|compareVoxels|voxelSurface)$`,
-    `^handle_(slice|layerSpans|surface|noise|save|voxelBricks|check|orientFaces|signedDistance|distanceLattice|closestPoints|offset|hollow)$`,
+    `^handle_(slice|layerSpans|surface|noise|save|voxelBricks|check|orientFaces|signedDistance|distanceLattice|closestPoints|offset|hollow|repair|boolean)$`,
   ].join('|'),
 );
 
