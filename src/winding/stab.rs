@@ -86,8 +86,8 @@ fn stab_rows(
     monitor: &dyn Monitor,
 ) -> Result<Vec<u8>, FieldError> {
     let closure = Closure::default();
-    let scan = Scan::new(Facets { soup, closure: &closure }, 0..soup.len(), lattice);
     let mut bits = zeroed::<u8>(lattice.len().div_ceil(8))?;
+    let scan = Scan::new(Facets { soup, closure: &closure }, 0..soup.len(), lattice);
     let fill = |_: usize, counted: &Slab, bits: &mut [u8]| -> Vec<()> {
         for (byte, crossings) in bits.iter_mut().zip(counted.crossings.chunks(8)) {
             *byte = byte_of(crossings.iter().map(|n| is_inside(*n)));
