@@ -1,5 +1,5 @@
 //! How two triangles meet, by exact predicates: points named by what makes them, and segments between these.
-use crate::math::{Sign, Vec3, normal_signs, orient, side_of_plane, Vec2};
+use crate::math::{Sign, Vec2, Vec3, normal_signs, orient, side_of_plane};
 
 /// What makes a point: the same for every pair of triangles that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -166,9 +166,8 @@ impl Triangles<'_> {
         }
         let (flat, facing) = self.flattened(triangle)?;
         let q = flat(self.at(vertex));
-        let side = |k: usize| {
-            facing * orient(flat(self.at(corners[k])), flat(self.at(corners[(k + 1) % 3])), q)
-        };
+        let side =
+            |k: usize| facing * orient(flat(self.at(corners[k])), flat(self.at(corners[(k + 1) % 3])), q);
         let sides = [side(0), side(1), side(2)];
         if sides.contains(&-1) {
             return None;

@@ -48,7 +48,8 @@ impl Work<'_> {
 
     /// Cuts the higher triangle of each pair into the pieces of the lower where they overlap.
     fn share_pieces(&mut self, pairs: &[[u32; 2]]) {
-        let mut pairs: Vec<[u32; 2]> = pairs.iter().copied().filter(|[low, high]| self.is_cut(*low) || self.is_cut(*high)).collect();
+        let mut pairs: Vec<[u32; 2]> =
+            pairs.iter().copied().filter(|[low, high]| self.is_cut(*low) || self.is_cut(*high)).collect();
         pairs.sort_unstable();
         let mut involved: Vec<u32> = pairs.iter().flatten().copied().collect();
         involved.sort_unstable();
@@ -68,7 +69,9 @@ impl Work<'_> {
                 let Some(pieces) = self.pieces.get(&triangle) else { continue };
                 for [a, b, c] in &pieces.triangles {
                     for ends in [[a, b], [b, c], [c, a]].map(|[a, b]| [*a.min(b), *a.max(b)]) {
-                        if self.segments.binary_search(&(*higher, ends)).is_err() && self.holds_middle(*higher, ends) {
+                        if self.segments.binary_search(&(*higher, ends)).is_err()
+                            && self.holds_middle(*higher, ends)
+                        {
                             wished.entry(*higher).or_default().push(ends);
                         }
                     }

@@ -91,7 +91,8 @@ pub fn arrange(
         contacts.into_iter().filter(|c| !c.is_empty()).for_each(|c| found.extend(c));
     }
     let mut work = start(positions, triangles, &found);
-    let mut changed: Vec<u32> = work.segments.iter().map(|s| s.0).chain(work.inside.iter().map(|i| i.0)).collect();
+    let mut changed: Vec<u32> =
+        work.segments.iter().map(|s| s.0).chain(work.inside.iter().map(|i| i.0)).collect();
     changed.extend(work.around(&work.edges.all()));
     work.refine(changed, monitor)?;
     found.coplanar.sort_unstable();
@@ -100,12 +101,7 @@ pub fn arrange(
 }
 
 /// Pairs of triangles whose boxes overlap.
-fn candidates(
-    positions: &[Vec3],
-    triangles: &[[u32; 3]],
-    has_area: &[bool],
-    pairs: Pairs,
-) -> Vec<[u32; 2]> {
+fn candidates(positions: &[Vec3], triangles: &[[u32; 3]], has_area: &[bool], pairs: Pairs) -> Vec<[u32; 2]> {
     let of_box = |t: u32| Aabb::around(triangles[t as usize].map(|v| positions[v as usize]));
     let with_area = |range: std::ops::Range<usize>| -> Vec<u32> {
         range.filter(|t| has_area[*t]).map(|t| t as u32).collect()
@@ -129,7 +125,8 @@ fn candidates(
                     let other = bounds[1 - side];
                     b.min.cmple(other.max).all() && other.min.cmple(b.max).all()
                 };
-                let near = sides[side].iter().copied().zip(boxes[side].iter().copied()).filter(|(_, b)| reaches(b));
+                let near =
+                    sides[side].iter().copied().zip(boxes[side].iter().copied()).filter(|(_, b)| reaches(b));
                 kept[side] = near.unzip();
             }
             let trees = [0, 1].map(|side| Bvh::build(&kept[side].1, LEAF));
@@ -149,12 +146,18 @@ fn start<'a>(positions: Vec<Vec3>, corners: &'a [[u32; 3]], found: &Contacts) ->
     let mut points = Points::new(positions);
     found.on_edges.iter().flat_map(|(edge, _)| *edge).for_each(|v| points.name(v));
     found.inside.iter().flat_map(|(t, _)| corners[*t as usize]).for_each(|v| points.name(v));
-    found.segments.iter().flat_map(|(_, pair)| *pair).flat_map(|t| corners[t as usize]).for_each(|v| points.name(v));
+    found
+        .segments
+        .iter()
+        .flat_map(|(_, pair)| *pair)
+        .flat_map(|t| corners[t as usize])
+        .for_each(|v| points.name(v));
     let numbers = points.resolve(&keys, corners);
     let number = |key: &Key| numbers[keys.binary_search(key).expect("every key was collected")];
     let mut edges = Edges::default();
     edges.add(found.on_edges.iter().filter_map(|(edge, key)| Some((*edge, number(key)?))).collect(), &points);
-    let mut inside: Vec<(u32, u32)> = found.inside.iter().filter_map(|(t, key)| Some((*t, number(key)?))).collect();
+    let mut inside: Vec<(u32, u32)> =
+        found.inside.iter().filter_map(|(t, key)| Some((*t, number(key)?))).collect();
     inside.sort_unstable();
     inside.dedup();
     let mut segments = Vec::new();

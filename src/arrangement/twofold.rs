@@ -133,7 +133,13 @@ impl Place {
     /// The component of largest absolute value.
     pub fn dominant(self) -> usize {
         let size = self.0.map(|x| x.high.abs());
-        if size[0] >= size[1] && size[0] >= size[2] { 0 } else if size[1] >= size[2] { 1 } else { 2 }
+        if size[0] >= size[1] && size[0] >= size[2] {
+            0
+        } else if size[1] >= size[2] {
+            1
+        } else {
+            2
+        }
     }
 
     pub fn is_finite(self) -> bool {
