@@ -1,4 +1,6 @@
+import type { BooleanOperation, BooleanOptions, BooleanResult } from './boolean-api.js';
 import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
+export type * from './boolean-api.js';
 export type * from './print-api.js';
 
 /** Options of `init`. The same options give the same engine; other options another one. */
@@ -235,6 +237,11 @@ export interface Shape {
   /** The surface where w = 1/2, closed unless it is trimmed. */
   surface(options?: SurfaceOptions): Promise<Mesh>;
   heatMap(options: { z: number; resolution?: number } & CallOptions): Promise<HeatMap>;
+  /**
+   * The solids of this shape and another combined: each trimmed along the other's surface, exactly, and where that is missing along the
+   * level set of its field. Of closed soups the result is closed; what nothing cuts stays as it is.
+   */
+  boolean(operation: BooleanOperation, other: Shape, options?: BooleanOptions): Promise<BooleanResult>;
   /** The shape as a file: `stl` (binary), `obj`, `ply` or `off` for soups, `ply` or `xyz` for clouds. */
   export(format: SoupFormat | CloudFormat): Promise<Uint8Array>;
 }

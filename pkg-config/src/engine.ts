@@ -18,7 +18,7 @@ const WITHOUT_FIELD = ['free', 'export', 'geometry'];
 const FUNCTIONS = { exportLayer: false, exportLayers: false, toolpaths: true, gcode: false, printSettings: false } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'surface', 'boolean', 'slice', 'layerSpans', ...Object.keys(FUNCTIONS)];
 
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
@@ -51,6 +51,7 @@ export class Engine {
     if (method === 'free') return this.free(handle);
     const shape = this.handles.get(handle);
     if (!shape) throw { code: 'Freed', message: 'this shape was freed', details: {} };
+    if (method === 'boolean') return this.combine(shape, args);
     const call = shape[method as keyof Handle] as (...args: unknown[]) => unknown;
     return call.apply(shape, [...args, this.job]);
   }
@@ -65,6 +66,13 @@ export class Engine {
     const handle = make.apply(this.glue.Handle, [...args, this.job]);
     this.handles.set(id, handle);
     return handle.describe();
+  }
+
+  /** The other operand comes as the number of its handle, and how it is moved. */
+  private combine(shape: Handle, [operation, other, transform, options]: unknown[]): unknown {
+    const second = this.handles.get(other as number);
+    if (!second) throw { code: 'Freed', message: 'the other shape was freed', details: {} };
+    return shape.boolean(operation as string, second.operand(transform, this.job), options, this.job);
   }
 
   private free(id: number): void {

@@ -8,11 +8,17 @@ type Plain<T> = T extends (...args: infer A) => Promise<infer R>
     : T;
 type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
 
-export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud'> {
+/** As in the other entry. */
+type Combine = (operation: api.BooleanOperation, other: Shape, options?: api.BooleanOptions) => api.BooleanResult<Soup>;
+
+export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | 'boolean'> {
+  boolean: Combine;
   /** As in the other entry. */
   toCloud(options?: Parameters<api.Soup['toCloud']>[0]): Cloud;
 }
-export interface Cloud extends Synchronous<api.Cloud> {}
+export interface Cloud extends Omit<Synchronous<api.Cloud>, 'boolean'> {
+  boolean: Combine;
+}
 export type Shape = Soup | Cloud;
 
 /** An engine that answers at once, on the thread that asks. */

@@ -9,6 +9,7 @@ mod pairs;
 mod parallel;
 mod soup;
 mod soup_cloud;
+mod transform;
 mod warning;
 
 pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit, zeroed};
@@ -20,6 +21,7 @@ pub use monitor::{Cancelled, Monitor, Silent};
 pub(crate) use pairs::{ascending, sorted_pairs};
 pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each, sort_keyed, threads};
 pub use soup::{SoupError, TriangleSoup};
+pub use transform::TransformError;
 pub use warning::{Warning, WarningKind};
 
 use crate::math::Aabb;

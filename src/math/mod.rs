@@ -8,7 +8,7 @@ mod triangle;
 
 pub use aabb::Aabb;
 pub use chebyshev::{Nodes, bernstein, lebesgue};
-pub use glam::{DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
+pub use glam::{DAffine3 as Affine, DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
 pub use plane::{PlaneFit, fit_plane};
 pub use predicates::{
     Sign, covers, meet, normal_signs, orient, orient_yz, perturbed_side_of_plane, side_of_edge,

@@ -1,6 +1,7 @@
 //! The core as JavaScript calls it: convert, call, convert. Nothing here knows geometry.
 //!
 //! What is exported is the interface between the WebAssembly and the package's own TypeScript, which users see.
+mod boolean;
 mod convert;
 mod failure;
 #[cfg(feature = "faults")]
@@ -15,6 +16,7 @@ mod printing;
 mod queries;
 mod results;
 
+pub use boolean::Operand;
 pub use handle::Handle;
 pub use job::Job;
 #[cfg(target_feature = "atomics")]
