@@ -169,8 +169,7 @@ fn flat_soups_become_one_picture() {
     let mut random = Random(3);
     for round in 0..200 {
         let tilt = |p: Vec3| if round % 2 == 0 { p.with_z(0.0) } else { p.with_z(p.x + 2.0 * p.y) };
-        let faces: Vec<[Vec3; 3]> =
-            (0..8).map(|_| [0; 3].map(|_| tilt(random.on_grid(5)))).collect();
+        let faces: Vec<[Vec3; 3]> = (0..8).map(|_| [0; 3].map(|_| tilt(random.on_grid(5)))).collect();
         let (positions, triangles, result) = arranged(&faces, Pairs::All);
         check_areas(&positions, &triangles, &result);
         check_crossings(&result, |_, _| true);
@@ -201,7 +200,8 @@ fn closed_meshes_stay_closed() {
             faces.extend(faces_of(&cuboid(Aabb { min, max })));
         }
         if round % 2 == 1 {
-            let turn = |p: Vec3| Vec3::new(0.6 * p.x - 0.8 * p.y, 0.8 * p.x + 0.6 * p.y, p.z) + random_shift(round);
+            let turn =
+                |p: Vec3| Vec3::new(0.6 * p.x - 0.8 * p.y, 0.8 * p.x + 0.6 * p.y, p.z) + random_shift(round);
             faces[12..24].iter_mut().for_each(|face| *face = face.map(turn));
         }
         let (positions, triangles, result) = arranged(&faces, Pairs::All);

@@ -53,7 +53,9 @@ fn open_edges(mesh: &BooleanMesh) -> usize {
     let mut numbers: HashMap<[u64; 3], usize> = HashMap::new();
     let mut number = |v: &u32| {
         let next = numbers.len();
-        *numbers.entry((mesh.positions[*v as usize] + Vec3::ZERO).to_array().map(f64::to_bits)).or_insert(next)
+        *numbers
+            .entry((mesh.positions[*v as usize] + Vec3::ZERO).to_array().map(f64::to_bits))
+            .or_insert(next)
     };
     let mut net: HashMap<(usize, usize), i32> = HashMap::new();
     for t in &mesh.triangles {
@@ -92,6 +94,17 @@ fn volumes(a: &TriangleSoup, b: &TriangleSoup) -> [f64; 3] {
     [u, i, d]
 }
 
+/// As [`volumes`] for surfaces that nearly coincide.
+fn nearly_volumes(a: &TriangleSoup, b: &TriangleSoup) {
+    let [u, i, d] = [UNION, INTERSECTION, DIFFERENCE].map(|op| {
+        let mesh = combined(a, op, b);
+        assert_eq!(open_edges(&mesh), 0, "{op:?} {:?}", mesh.warnings);
+        volume_of(&mesh)
+    });
+    let (of_a, of_b) = (volume_of_soup(a), volume_of_soup(b));
+    assert!((u + i - of_a - of_b).abs() < 1e-8 && (d + i - of_a).abs() < 1e-8, "{u} {i} {d}");
+}
+
 #[test]
 fn cubes_in_all_positions_have_the_volumes_of_boxes() {
     let a = cube_at(Vec3::ZERO, 2.0);
@@ -112,8 +125,13 @@ fn curved_solids_obey_their_volumes() {
     volumes(&ring, &moved(&sphere(16), turn, Vec3::new(1.8, 0.1, 0.0)));
     // Symmetric positions, in which vertices and edges meet.
     let ball = sphere(8);
-    volumes(&ball, &moved(&ball, Mat3::from_rotation_z(std::f64::consts::FRAC_PI_2), Vec3::ZERO));
+    volumes(&ball, &moved(&ball, Mat3::from_cols(Vec3::Y, -Vec3::X, Vec3::Z), Vec3::ZERO));
     volumes(&ball, &moved(&ball, Mat3::IDENTITY, 0.5 * Vec3::X));
+    // Not quite in the same place.
+    let quarter = Mat3::from_rotation_z(std::f64::consts::FRAC_PI_2);
+    nearly_volumes(&ball, &moved(&ball, quarter, Vec3::ZERO));
+    let flush = moved(&cube(1.0), quarter * quarter * quarter, 2.0 * Vec3::X + 0.3 * Vec3::Y);
+    nearly_volumes(&cube(1.0), &flush);
     volumes(&ball, &moved(&ball, Mat3::from_diagonal(Vec3::splat(0.5)), Vec3::ZERO));
 }
 
@@ -163,7 +181,11 @@ fn touching_and_disjoint_operands_have_defined_results() {
     assert_eq!(combined(&a, UNION, &far).triangles.len(), 24);
     assert!(has_warning(&combined(&a, INTERSECTION, &far), WarningKind::EmptyResult));
     let whole = combined(&a, DIFFERENCE, &far).soup();
-    assert!((0..12).all(|t| whole.corners(t) == a.corners(t)) && whole.len() == 12 && whole.positions().len() == 8);
+    assert!(
+        (0..12).all(|t| whole.corners(t) == a.corners(t))
+            && whole.len() == 12
+            && whole.positions().len() == 8
+    );
     let inner = cube_at(Vec3::splat(0.25), 0.5);
     assert_eq!(combined(&a, UNION, &inner).triangles.len(), 12);
     assert_eq!(combined(&a, DIFFERENCE, &inner).triangles.len(), 24);

@@ -49,7 +49,11 @@ fn cylinder(radius: f64, height: f64, around: u32, up: u32) -> TriangleSoup {
     for j in 0..=up {
         for i in 0..around {
             let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(around)).sin_cos();
-            positions.push(Vec3::new(radius * cos, radius * sin, height * (f64::from(j) / f64::from(up) - 0.5)));
+            positions.push(Vec3::new(
+                radius * cos,
+                radius * sin,
+                height * (f64::from(j) / f64::from(up) - 0.5),
+            ));
         }
     }
     let [bottom, top] = [-0.5, 0.5].map(|z| {
@@ -86,7 +90,8 @@ fn a_holey_cylinder_and_a_holey_body_combine_as_their_fields_do() {
 /// A square sheet of n × n cells in the plane y = 0.
 fn sheet(half: f64, n: u32) -> TriangleSoup {
     let place = |k: u32| half * (2.0 * f64::from(k) / f64::from(n) - 1.0);
-    let positions = (0..(n + 1) * (n + 1)).map(|k| Vec3::new(place(k % (n + 1)), 0.0, place(k / (n + 1)))).collect();
+    let positions =
+        (0..(n + 1) * (n + 1)).map(|k| Vec3::new(place(k % (n + 1)), 0.0, place(k / (n + 1)))).collect();
     let cell = |k: u32| {
         let [a, b] = [k / n * (n + 1) + k % n, (k / n + 1) * (n + 1) + k % n];
         [[a, a + 1, b], [a + 1, b + 1, b]]
@@ -97,7 +102,10 @@ fn sheet(half: f64, n: u32) -> TriangleSoup {
 /// Area of what is left of the first operand.
 fn area_left(mesh: &BooleanMesh) -> f64 {
     let corners = |k: usize| mesh.triangles[k].map(|v| mesh.positions[v as usize]);
-    (0..mesh.triangles.len()).filter(|k| mesh.operands[*k] == 0).map(|k| area_vector(corners(k)).length()).sum()
+    (0..mesh.triangles.len())
+        .filter(|k| mesh.operands[*k] == 0)
+        .map(|k| area_vector(corners(k)).length())
+        .sum()
 }
 
 #[test]
@@ -167,8 +175,7 @@ fn clouds_combine_to_closed_surfaces() {
         let result = field(mesh.soup());
         assert!(result.is_closed());
         let at = |v: u32| mesh.positions[v as usize];
-        let found: f64 =
-            mesh.triangles.iter().map(|[a, b, c]| at(*a).dot(at(*b).cross(at(*c))) / 6.0).sum();
+        let found: f64 = mesh.triangles.iter().map(|[a, b, c]| at(*a).dot(at(*b).cross(at(*c))) / 6.0).sum();
         assert!((found / volume - 1.0).abs() < 0.02, "{op:?}: {found} of {volume}");
     }
 }

@@ -98,10 +98,6 @@ impl Work<'_> {
             }
             events.sort_unstable();
             events.dedup();
-            if round > 34 && std::env::var("DBG").is_ok() { println!("round {round}: {events:?} {:?}", dirty); 
-              for e in &events { let l: Vec<u32> = match e { Event::Through([a,b],c) => vec![*a,*b,*c], Event::Cross([a,b],[c,d]) => vec![*a,*b,*c,*d] };
-                for v in l { println!("   {v}: {:?}", self.points.at(v)); }
-                for t in &dirty { println!("   T{t} {:?} seg {:?}", self.corners[*t as usize].map(|v| (v, self.points.positions()[v as usize])), self.segments_of(*t).collect::<Vec<_>>()); } } }
             dirty = self.apply(&events);
         }
         self.unresolved += dirty.len();

@@ -64,6 +64,8 @@ pub enum WarningKind {
     OpenOperands,
     /// An operand crosses itself where it is cut: what does not bound the result was dropped.
     SelfCrossing,
+    /// Operands nearly coincide: they were cut as if their vertices lay on a grid.
+    SnappedOperands,
     /// Faces whose pieces still cross, as coordinates are rounded.
     CrossingFaces,
 }
@@ -128,6 +130,9 @@ impl fmt::Display for Warning {
             }
             WarningKind::SelfCrossing => {
                 write!(f, "an operand crosses itself at the cut: only what bounds the result is left")
+            }
+            WarningKind::SnappedOperands => {
+                write!(f, "surfaces nearly coincide: they were cut as if vertices lay on a fine grid")
             }
             WarningKind::CrossingFaces => write!(f, "pieces of {n} faces cross after rounding"),
         }

@@ -84,7 +84,9 @@ fn affine(numbers: &[f64]) -> Result<Affine, Failure> {
         return Err(Failure::invalid(message));
     };
     if [d, h, l, w] != [0.0, 0.0, 0.0, 1.0] {
-        return Err(Failure::invalid("a transform's last row must be 0, 0, 0, 1: it moves without perspective"));
+        return Err(Failure::invalid(
+            "a transform's last row must be 0, 0, 0, 1: it moves without perspective",
+        ));
     }
     let matrix3 = Mat3::from_cols(Vec3::new(a, b, c), Vec3::new(e, f, g), Vec3::new(i, j, k));
     Ok(Affine { matrix3, translation: Vec3::new(x, y, z) })
@@ -102,6 +104,7 @@ impl From<BooleanError> for Failure {
             BooleanError::Lattice(lattice) => lattice.into(),
             BooleanError::Cancelled(cancelled) => cancelled.into(),
             BooleanError::OutOfMemory(out_of_memory) => out_of_memory.into(),
+            BooleanError::Soup(soup) => soup.into(),
             BooleanError::BadTolerance(_) | BooleanError::TooFine(_) => Failure::invalid(&error),
         }
     }

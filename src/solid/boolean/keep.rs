@@ -7,14 +7,15 @@ use crate::data::Monitor;
 use crate::math::{Vec3, barycentre};
 use rustc_hash::FxHashMap;
 
-/// What becomes of each piece: a region is inside or outside the other operand; what both have in one place stays once.
+/// What becomes of each piece: a region is inside or outside the other operand; what both have in one place stays once. A cut
+/// along a level set need not separate regions to the last: beside an open operand each piece is asked for.
 pub fn by_regions(
     pieces: &Pieces,
     operands: &[Operand; 2],
     op: BooleanOp,
     monitor: &dyn Monitor,
 ) -> Result<Vec<Fate>, BooleanError> {
-    let regions = across_vertices(pieces);
+    let regions = across_vertices(pieces, [1, 0].map(|other| !operands[other].field().is_closed()));
     let mut fates = vec![Fate::Dropped; regions.largest.len()];
     for of in [0, 1] {
         let is_asked = |region: &usize| {

@@ -14,10 +14,11 @@ mod sides;
 
 pub use result::BooleanMesh;
 
-use crate::data::{Cancelled, LatticeError, Monitor, OutOfMemory, Warning, WarningKind};
+use crate::data::{Cancelled, LatticeError, Monitor, OutOfMemory, SoupError, Warning, WarningKind};
 use crate::levelset::TraceError;
 use crate::winding::{FieldError, WindingField};
 use operands::{Operand, Pieces};
+use sides::Fate;
 
 /// How two operands are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +64,8 @@ pub enum BooleanError {
     Cancelled(#[from] Cancelled),
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
+    #[error(transparent)]
+    Soup(#[from] SoupError),
 }
 
 impl From<FieldError> for BooleanError {
@@ -97,7 +100,8 @@ const STEPS: f64 = 256.0;
 /// copy stays, turned the right way, if the result is inside on one side of it only: what merely touches is joined by a union, and
 /// left as it is by a difference. Open soups are trimmed as they are, so that the result is open where they were. Closed soups that cross
 /// themselves where they are cut are cut along themselves too, and only what bounds the result stays. Equal soups are their union and their
-/// intersection. An empty result is a mesh without triangles and a warning.
+/// intersection. An empty result is a mesh without triangles and a warning. Where closed surfaces come so near to each other that
+/// rounding would tear the result, they are cut as if their vertices lay on a grid of 2⁻³⁶ of their size, with a warning.
 ///
 /// # Errors
 /// If and only if an option is out of range, the surface of a cloud would be too fine, memory does not suffice or the monitor cancels.
@@ -137,6 +141,50 @@ fn combine(
             _ => BooleanMesh::of(operands[0].soup()),
         });
     }
+    let mut tried = trimmed(operands, op, config, monitor)?;
+    if operands.iter().all(|o| o.field().is_closed()) && tried.is_torn() {
+        let resolved = resolved(operands, op, monitor)?;
+        if !resolved.is_torn() {
+            warnings.push(Warning::new(WarningKind::SelfCrossing, 1));
+            tried = resolved;
+        } else {
+            // Surfaces that nearly coincide: on a grid they do so, or are clearly apart.
+            let snapped = operands::snapped(operands)?;
+            let mut again = trimmed(&snapped, op, config, monitor)?;
+            if again.is_torn() {
+                again = self::resolved(&snapped, op, monitor)?;
+            }
+            warnings.push(Warning::new(WarningKind::SnappedOperands, 1));
+            again.pieces.restore(operands);
+            tried = again;
+        }
+    }
+    if tried.pieces.unresolved > 0 {
+        warnings.push(Warning::new(WarningKind::CrossingFaces, tried.pieces.unresolved));
+    }
+    Ok(BooleanMesh::assembled(&tried.pieces, operands, &tried.fates))
+}
+
+/// Pieces, and what becomes of each.
+struct Trimmed {
+    pieces: Pieces,
+    fates: Vec<Fate>,
+}
+
+impl Trimmed {
+    /// Whether what stays has a boundary along the seams.
+    fn is_torn(&self) -> bool {
+        keep::is_torn(&self.pieces, &self.fates)
+    }
+}
+
+/// Each operand cut along the other, and what lies on the right side of that kept.
+fn trimmed(
+    operands: &[Operand; 2],
+    op: BooleanOp,
+    config: &BooleanConfig,
+    monitor: &dyn Monitor,
+) -> Result<Trimmed, BooleanError> {
     let mut pieces = Pieces::cut(operands, false, monitor)?;
     for of in [0, 1] {
         let field = operands[1 - of].field();
@@ -146,16 +194,15 @@ fn combine(
             level::cut(&mut pieces, of, field, step, monitor)?;
         }
     }
-    let mut kept = keep::by_regions(&pieces, operands, op, monitor)?;
-    if operands.iter().all(|o| o.field().is_closed()) && keep::is_torn(&pieces, &kept) {
-        pieces = Pieces::cut(operands, true, monitor)?;
-        kept = sides::keep(&pieces, operands, op, monitor)?;
-        warnings.push(Warning::new(WarningKind::SelfCrossing, 1));
-    }
-    if pieces.unresolved > 0 {
-        warnings.push(Warning::new(WarningKind::CrossingFaces, pieces.unresolved));
-    }
-    Ok(BooleanMesh::assembled(&pieces, operands, &kept))
+    let fates = keep::by_regions(&pieces, operands, op, monitor)?;
+    Ok(Trimmed { pieces, fates })
+}
+
+/// All triangles cut along each other, and what bounds the result kept.
+fn resolved(operands: &[Operand; 2], op: BooleanOp, monitor: &dyn Monitor) -> Result<Trimmed, BooleanError> {
+    let pieces = Pieces::cut(operands, true, monitor)?;
+    let fates = sides::keep(&pieces, operands, op, monitor)?;
+    Ok(Trimmed { pieces, fates })
 }
 
 fn warnings(operands: &[Operand; 2]) -> Vec<Warning> {

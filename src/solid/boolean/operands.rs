@@ -1,7 +1,7 @@
 //! Both operands as triangles, cut along each other.
 use super::{BooleanConfig, BooleanError, cloud};
 use crate::arrangement::{Pairs, arrange};
-use crate::data::{Cancelled, Monitor, Shape, TriangleSoup};
+use crate::data::{Cancelled, Monitor, Shape, SoupError, TriangleSoup};
 use crate::math::Vec3;
 use crate::winding::{WindingField, weld};
 use rustc_hash::FxHashSet;
@@ -81,6 +81,12 @@ impl Pieces {
         })
     }
 
+    /// Gives the given vertices the positions that they have in `operands`.
+    pub fn restore(&mut self, operands: &[Operand; 2]) {
+        let given = operands.iter().flat_map(|o| o.soup().positions());
+        self.positions.iter_mut().zip(given).for_each(|(position, given)| *position = *given);
+    }
+
     /// The operand that a piece is of: 0 or 1.
     pub fn operand(&self, piece: usize) -> usize {
         usize::from(self.sources[piece] as usize >= self.first)
@@ -100,6 +106,24 @@ impl Pieces {
         self.seams.iter().flatten().for_each(|v| is_cut[*v as usize] = true);
         is_cut
     }
+}
+
+/// Steps of the grid in the larger of the operands.
+const GRID: f64 = (1u64 << 36) as f64;
+
+/// The operands with their vertices moved to a common grid; new fields.
+pub fn snapped<'a>(operands: &[Operand; 2]) -> Result<[Operand<'a>; 2], SoupError> {
+    let bounds = operands[0].field().bounds().union(operands[1].field().bounds());
+    // A power of two, so that multiples of it are exact.
+    let largest = bounds.min.abs().max(bounds.max.abs()).max_element().max(f64::MIN_POSITIVE);
+    let step = largest.log2().ceil().exp2() / GRID;
+    let snap = |operand: &Operand| {
+        let soup = operand.soup();
+        let positions = soup.positions().iter().map(|p| (*p / step).round() * step).collect();
+        let soup = TriangleSoup::new(positions, soup.triangles().to_vec())?;
+        Ok(Operand::Traced(WindingField::new(soup, Default::default())))
+    };
+    Ok([snap(&operands[0])?, snap(&operands[1])?])
 }
 
 pub fn edge(a: u32, b: u32) -> [u32; 2] {

@@ -26,8 +26,9 @@ fn join(parents: &mut [u32], a: u32, b: u32) {
     parents[a.max(b) as usize] = a.min(b);
 }
 
-/// Regions of one operand each: pieces share a vertex away from all cuts, or an edge that is no seam.
-pub fn across_vertices(pieces: &Pieces) -> Regions {
+/// Regions of one operand each: pieces share a vertex away from all cuts, or an edge that is no seam. Those of an operand that is
+/// `scattered` each are their own.
+pub fn across_vertices(pieces: &Pieces, scattered: [bool; 2]) -> Regions {
     let is_cut = pieces.is_cut();
     let vertices = pieces.positions.len() as u32;
     let mut parents: Vec<u32> = (0..vertices + pieces.corners.len() as u32).collect();
@@ -35,6 +36,9 @@ pub fn across_vertices(pieces: &Pieces) -> Regions {
     let mut between: FxHashMap<([u32; 2], usize, bool), u32> = FxHashMap::default();
     for (piece, corners) in pieces.corners.iter().enumerate() {
         let node = vertices + piece as u32;
+        if scattered[pieces.operand(piece)] && !doubles.contains(&key(*corners)) {
+            continue;
+        }
         let free = corners.iter().filter(|v| !is_cut[**v as usize]);
         free.for_each(|v| join(&mut parents, *v, node));
         let is_double = doubles.contains(&key(*corners));
