@@ -21,7 +21,7 @@ const FUNCTIONS = {
 } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', 'boolean', ...Object.keys(FUNCTIONS)];
 
 /** Ways of making voxels that take it. */
 const VOXELS_BY_MORE = ['continuation', 'rays', 'fast', 'cloud'];
@@ -65,6 +65,7 @@ export class Engine {
     if (method === 'free') return this.free(handle);
     const shape = this.handles.get(handle);
     if (!shape) throw { code: 'Freed', message: 'this shape was freed', details: {} };
+    if (method === 'boolean') return this.combine(shape, args);
     const call = shape[method as keyof Handle] as (...args: unknown[]) => unknown;
     const value = call.apply(shape, [...args, this.job]);
     return makes === undefined ? value : this.keep(makes, value as { handle: Handle });
@@ -86,6 +87,13 @@ export class Engine {
     const handle = make.apply(this.glue.Handle, [...args, this.job]);
     this.handles.set(id, handle);
     return handle.describe();
+  }
+
+  /** The other operand comes as the number of its handle, and how it is moved. */
+  private combine(shape: Handle, [operation, other, transform, options]: unknown[]): unknown {
+    const second = this.handles.get(other as number);
+    if (!second) throw { code: 'Freed', message: 'the other shape was freed', details: {} };
+    return shape.boolean(operation as string, second.operand(transform, this.job), options, this.job);
   }
 
   private free(id: number): void {
