@@ -26,8 +26,9 @@ const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save
 /** Ways of making voxels that take it. */
 const VOXELS_BY_MORE = ['continuation', 'rays', 'fast', 'cloud'];
 
-/** Whether bytes begin as a saved field does. */
-const isSaved = (bytes: unknown) => bytes instanceof Uint8Array && bytes[0] === 0x89 && bytes[1] === 0x46 && bytes[2] === 0x57;
+/** How saved fields begin, and archives such as 3MF: what reads them comes later too. */
+const READ_BY_MORE = [[0x89, 0x46, 0x57], [0x50, 0x4b]];
+const beginsSo = (bytes: unknown) => bytes instanceof Uint8Array && READ_BY_MORE.some((start) => start.every((byte, k) => bytes[k] === byte));
 
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
@@ -44,7 +45,7 @@ export class Engine {
 
   /** Whether a call estimates normals or areas, or makes surfaces or layers, which takes the part of the WebAssembly that comes later. */
   needsMore({ method, handle, args }: Request): boolean {
-    if (method === 'parse' && (args[1] === 'field' || isSaved(args[0]))) return true;
+    if (method === 'parse' && (args[1] === 'field' || beginsSo(args[0]))) return true;
     if (method === 'voxelize') {
       const { method: how = '', surface } = (args[0] ?? {}) as { method?: string; surface?: boolean };
       if (surface || VOXELS_BY_MORE.includes(how)) return true;
