@@ -13,8 +13,8 @@ pub struct VoxelDifference {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("voxels of different lattices cannot be compared: {first:?} and {second:?}")]
 pub struct DifferentLattices {
-    pub first: Lattice,
-    pub second: Lattice,
+    pub first: Box<Lattice>,
+    pub second: Box<Lattice>,
 }
 
 impl VoxelDifference {
@@ -40,7 +40,7 @@ pub fn difference(
 ) -> Result<VoxelDifference, DifferentLattices> {
     let lattice = *first.lattice();
     if lattice != *second.lattice() {
-        return Err(DifferentLattices { first: lattice, second: *second.lattice() });
+        return Err(DifferentLattices { first: Box::new(lattice), second: Box::new(*second.lattice()) });
     }
     let [nx, ny, nz] = lattice.counts;
     let planes = map_tasks(nz, |k| {

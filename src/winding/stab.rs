@@ -94,7 +94,7 @@ fn stab_rows(
         }
         vec![]
     };
-    const { assert!(SLAB_PLANES % 8 == 0, "the bits of a slab fill bytes") };
+    const { assert!(SLAB_PLANES.is_multiple_of(8), "the bits of a slab fill bytes") };
     for_each_slab(&scan, 0..lattice.counts[2], &mut bits, 1, fill, "ray stabbing", monitor)?;
     Ok(bits)
 }
