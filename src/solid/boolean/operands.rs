@@ -9,7 +9,7 @@ use rustc_hash::FxHashSet;
 /// A field of triangles: that given, or of the surface traced for a cloud.
 pub enum Operand<'a> {
     Given(&'a WindingField),
-    Traced(WindingField),
+    Traced(Box<WindingField>),
 }
 
 impl<'a> Operand<'a> {
@@ -22,7 +22,7 @@ impl<'a> Operand<'a> {
             Shape::Soup(_) => Ok(Operand::Given(field)),
             Shape::Cloud(cloud) => {
                 let surface = cloud::traced(field, cloud, config, monitor)?;
-                Ok(Operand::Traced(WindingField::new(surface, Default::default())))
+                Ok(Operand::Traced(Box::new(WindingField::new(surface, Default::default()))))
             }
         }
     }
@@ -121,7 +121,7 @@ pub fn snapped<'a>(operands: &[Operand; 2]) -> Result<[Operand<'a>; 2], SoupErro
         let soup = operand.soup();
         let positions = soup.positions().iter().map(|p| (*p / step).round() * step).collect();
         let soup = TriangleSoup::new(positions, soup.triangles().to_vec())?;
-        Ok(Operand::Traced(WindingField::new(soup, Default::default())))
+        Ok(Operand::Traced(Box::new(WindingField::new(soup, Default::default()))))
     };
     Ok([snap(&operands[0])?, snap(&operands[1])?])
 }
