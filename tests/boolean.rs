@@ -174,7 +174,7 @@ fn touching_and_disjoint_operands_have_defined_results() {
     let (a, b) = (cube_at(Vec3::ZERO, 1.0), cube_at(Vec3::X, 1.0));
     let joined = combined(&a, UNION, &b);
     let is_inner = |t: &[u32; 3]| t.iter().all(|v| joined.positions[*v as usize].x == 1.0);
-    assert!(!joined.triangles.iter().any(|t| is_inner(t)), "the face between them is gone");
+    assert!(!joined.triangles.iter().any(is_inner), "the face between them is gone");
     assert!(combined(&a, INTERSECTION, &b).triangles.is_empty());
     assert_eq!(combined(&a, DIFFERENCE, &b).triangles.len(), 12);
     let far = cube_at(Vec3::splat(9.0), 1.0);

@@ -123,7 +123,7 @@ fn where_the_body_is_open_a_sheet_is_cut_along_its_level_set() {
     // Of a half sphere without its disc, w is 1/2 on that disc.
     let half = field(without(&sphere(24), |t| {
         let n = 24 * 24;
-        t / n & 4 != 0
+        (t / n) & 4 != 0
     }));
     let chord = (0..half.shape().len()).count();
     assert_eq!(chord, 4 * 24 * 24);
