@@ -3,6 +3,7 @@ import type { Page, Source } from '../page.ts';
 import { centreOf, firstPlacement, matrixOf } from '../placement.ts';
 import { PRIMITIVES } from '../primitives.ts';
 import type { PrimitiveName } from '../primitives.ts';
+import { sentence } from '../problem.ts';
 import { diagonal } from '../state.ts';
 import { attempt } from './attempt.ts';
 import { fileSource } from './open.ts';
@@ -67,11 +68,15 @@ export async function combine(page: Page, operation: BooleanOperation): Promise<
   await attempt(page, 'Combining', 'The models could not be combined', async (options: Required<CallOptions>) => {
     const transform = matrixOf(placement, second.bounds);
     const made = await timed(() => model.shape.boolean(operation, second.shape, { transform, ...options }));
-    const { soup, operands } = made.value;
+    const { soup, operands, warnings } = made.value;
+    if (!soup) {
+      const detail = warnings.map(({ message }) => sentence(message)).join(' ');
+      return store.set({ problem: { title: 'Nothing is left of the models', detail } });
+    }
     try {
-      const triangles = await soup.geometry();
+      const value = { soup, triangles: await soup.geometry(), operands, warnings };
       store.state.combined?.value.soup.free();
-      store.set({ combined: { value: { soup, triangles, operands }, milliseconds: made.milliseconds }, visible: only(page, 'combined') });
+      store.set({ combined: { value, milliseconds: made.milliseconds }, visible: only(page, 'combined') });
     } catch (error) {
       soup.free();
       throw error;
