@@ -231,3 +231,18 @@ describe('ways of making voxels', () => {
       }
     }));
 });
+
+describe('a field', () => {
+  test('is saved, and opened again with its model', () =>
+    withModel(boxStl([0, 0, 0], [40, 30, 20], { without: SIDES.top }), async (page) => {
+      const area = await number(page, 'layer-facts', 'Area');
+      const { name, bytes } = await saved(page, '#field-save');
+      assert.equal(name, 'box.field');
+      await dropFile(page, name, bytes);
+      await page.waitForFunction(() => document.querySelector('#sample option:checked').textContent === 'box.field');
+      await settled(page);
+      assert.equal(await fact(page, 'facts', 'Triangles'), '10');
+      assert.equal(await number(page, 'layer-facts', 'Area'), area);
+      assert.ok(await page.isHidden('#unit-field'), 'its numbers are millimetres');
+    }));
+});
