@@ -10,6 +10,7 @@
 //! Barill et al. 2018, *Fast Winding Numbers for Soups and Clouds*.
 #![deny(unsafe_code)]
 
+pub mod arrangement;
 pub mod bvh;
 pub mod check;
 pub mod data;
@@ -22,6 +23,7 @@ pub mod metrics;
 pub mod orient;
 pub mod polygon;
 pub mod print;
+pub mod repair;
 pub mod slice;
 pub mod solid;
 pub mod surface;

@@ -5,7 +5,7 @@ const LAYERS: &[&[&str]] = &[
     &["math"],
     &["data"],
     &["io", "bvh", "polygon"],
-    &["treecode", "levelset", "estimate", "metrics", "distance"],
+    &["treecode", "levelset", "estimate", "metrics", "distance", "arrangement"],
     &["winding", "charge"],
     &["slice", "solid", "surface", "check", "orient"],
     &["repair", "print"],

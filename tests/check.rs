@@ -248,7 +248,7 @@ fn a_vertex_on_an_edge_leaves_a_slit() {
         joined(&[cube, TriangleSoup::new(vec![Vec3::ZERO, Vec3::X, -Vec3::Y], vec![[0, 1, 2]]).unwrap()]);
     let report = checked(fin);
     assert_eq!((report.non_manifold_edges.list.len(), report.boundary.edges), (1, 2));
-    assert_eq!(report.boundary.loops.list[0].is_closed, false);
+    assert!(!report.boundary.loops.list[0].is_closed);
     assert_eq!(report.outside_faces.list, [12]);
 }
 

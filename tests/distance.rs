@@ -91,7 +91,7 @@ fn signs_are_right_where_shapes_are_open_flipped_or_overlap() {
     };
     let ball = sphere(20);
     let low = |t: usize| ball.corners(t).iter().all(|p| p.z < -0.75);
-    let few_flipped = |t: &[u32; 3], i: usize| if i % 40 == 0 { [t[0], t[2], t[1]] } else { *t };
+    let few_flipped = |t: &[u32; 3], i: usize| if i.is_multiple_of(40) { [t[0], t[2], t[1]] } else { *t };
     let flips = ball.triangles().iter().enumerate().map(|(i, t)| few_flipped(t, i)).collect();
     let flipped = TriangleSoup::new(ball.positions().to_vec(), flips).unwrap();
     let of_ball = |p: Vec3| p.length() - 1.0;

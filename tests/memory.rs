@@ -6,8 +6,8 @@ use common::{cuboid, joined, torus, without};
 use fast_winding::data::{Lattice, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3};
 use fast_winding::slice::{LayerPlan, SliceConfig, slice_each};
-use fast_winding::solid::{VoxelConfig, VoxelError, VoxelMethod, voxelize};
-use fast_winding::winding::{Accuracy, FieldError};
+use fast_winding::solid::{VoxelConfig, VoxelError, VoxelMethod, voxelize, voxelize_bricks};
+use fast_winding::winding::{Accuracy, FieldError, Order};
 use fast_winding::{WindingField, math::area_vector};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
@@ -175,9 +175,14 @@ fn what_cannot_fit_is_refused_before_anything_is_taken() {
                 refused(field.evaluate_lattice(lattice, Accuracy::default(), &Silent).map(drop));
                 let explicit = Accuracy::of_paper(field.shape());
                 refused(field.evaluate_lattice(lattice, explicit, &Silent).map(drop));
-                for method in [VoxelMethod::Lattice, VoxelMethod::Continuation] {
-                    let voxels = voxelize(&field, lattice, &VoxelConfig { threshold: 0.5, method }, &Silent);
+                let rays = VoxelMethod::Rays(Default::default());
+                let fast = VoxelMethod::Fast { order: Order::Two, beta: 2.0 };
+                for method in [VoxelMethod::Lattice, VoxelMethod::Continuation, rays, fast] {
+                    let config = VoxelConfig { threshold: 0.5, method };
+                    let voxels = voxelize(&field, lattice, &config, &Silent);
                     assert!(matches!(voxels, Err(VoxelError::OutOfMemory(_))), "{voxels:?}");
+                    let bricks = voxelize_bricks(&field, lattice, &config, &Silent);
+                    assert!(matches!(bricks, Err(VoxelError::OutOfMemory(_))), "{bricks:?}");
                 }
             });
             assert!(peak < 10_000, "{:?}: {peak} bytes were taken", lattice.counts);

@@ -176,3 +176,20 @@ fn requests_that_cannot_be_are_refused() {
         assert!(matches!(found, Err(VoxelError::Cancelled(_))), "{found:?}");
     }
 }
+
+#[test]
+fn lattices_without_samples_have_no_voxels() {
+    let soup = field(cube(1.0));
+    for counts in [[0, 3, 3], [3, 0, 3], [3, 3, 0]] {
+        let lattice = Lattice { origin: Vec3::ZERO, spacing: Vec3::ONE, counts };
+        let rays = rays(StabCount::Parity, true);
+        for method in [VoxelMethod::Lattice, VoxelMethod::Continuation, rays] {
+            let config = VoxelConfig { method, threshold: 0.5 };
+            let voxels = voxelize(&soup, &lattice, &config, &Silent).unwrap();
+            let bricks = voxelize_bricks(&soup, &lattice, &config, &Silent).unwrap();
+            assert_eq!((voxels.count(), bricks.count()), (0, 0));
+            assert!(voxels.surface().unwrap().positions.is_empty());
+            assert!(bricks.surface().unwrap().positions.is_empty());
+        }
+    }
+}

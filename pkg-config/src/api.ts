@@ -1,10 +1,12 @@
 import type { Distances, HollowOptions } from './distance-api.js';
 import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
-export type * from './distance-api.js';
 import type { CheckOptions, CheckReport, FaceOrientOptions, OrientedFaces } from './check-api.js';
-export type * from './check-api.js';
-export type * from './print-api.js';
+import type { RemeshOptions, Repaired, RepairOptions } from './repair-api.js';
 import type { VoxelFunctions, VoxelMethodOptions, VoxelShape } from './voxels-api.js';
+export type * from './check-api.js';
+export type * from './distance-api.js';
+export type * from './print-api.js';
+export type * from './repair-api.js';
 export type * from './voxels-api.js';
 
 /** Options of `init`. The same options give the same engine; other options another one. */
@@ -264,6 +266,8 @@ export interface Soup extends Shape {
    * barycentres of its triangles. What has no area or direction is left out, with a warning.
    */
   toCloud(options?: { at?: 'vertices' | 'barycentres' } & CallOptions): Promise<Cloud>;
+  /** A closed manifold that bounds where w ≥ ½, with the triangles of this soup, or made anew. This soup stays as it is. */
+  repair(options?: RepairOptions): Promise<Repaired<Soup>>;
 }
 
 export interface OrientOptions extends CallOptions {
@@ -289,6 +293,8 @@ export interface Cloud extends Shape {
   orient(options?: OrientOptions): Promise<void>;
   /** Noise around each point, in millimetres: how far it and its neighbours are from a smooth surface, root mean square. */
   noise(options?: CallOptions): Promise<Float64Array>;
+  /** A closed manifold that bounds where w ≥ ½. */
+  repair(options?: RemeshOptions): Promise<Repaired<Soup>>;
   /** The points as they are; areas in square millimetres. */
   geometry(): Promise<{
     positions: Float32Array;

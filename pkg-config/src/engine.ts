@@ -21,7 +21,7 @@ const FUNCTIONS = {
 } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', ...Object.keys(FUNCTIONS)];
 
 /** Ways of making voxels that take it. */
 const VOXELS_BY_MORE = ['continuation', 'rays', 'fast', 'cloud'];
@@ -56,7 +56,7 @@ export class Engine {
 
   /** Runs one call. Throws what the WebAssembly throws. */
   run(request: Request, progress: Progress, watcher?: Watcher): unknown {
-    const { method, handle, args } = request;
+    const { method, handle, args, makes } = request;
     this.job.listen(progress);
     this.job.watch(watcher);
     if (this.needsMore(request)) placeMore();
@@ -66,7 +66,14 @@ export class Engine {
     const shape = this.handles.get(handle);
     if (!shape) throw { code: 'Freed', message: 'this shape was freed', details: {} };
     const call = shape[method as keyof Handle] as (...args: unknown[]) => unknown;
-    return call.apply(shape, [...args, this.job]);
+    const value = call.apply(shape, [...args, this.job]);
+    return makes === undefined ? value : this.keep(makes, value as { handle: Handle });
+  }
+
+  /** Keeps a shape that came of another, and describes it in its place. */
+  private keep(id: number, { handle, ...rest }: { handle: Handle }): unknown {
+    this.handles.set(id, handle);
+    return { ...rest, shape: handle.describe() };
   }
 
   private runFunction(name: keyof typeof FUNCTIONS, args: unknown[]): unknown {

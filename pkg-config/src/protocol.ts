@@ -7,6 +7,8 @@ export interface Request {
   /** The shape it is about, or the name of the shape it makes: chosen by the client. */
   handle: number;
   args: unknown[];
+  /** The name of a shape that is made of that one. */
+  makes?: number;
 }
 
 /** What a shape is, as far as it can be said without asking the engine again. */

@@ -69,9 +69,19 @@ class BaseShape {
     forgotten.register(this, () => void caller.call({ method: 'free', handle, args: [] }, undefined), this);
   }
 
-  protected ask(method: string, args: unknown[], options?: object): unknown {
+  protected ask(method: string, args: unknown[], options?: object, makes?: number): unknown {
     if (this.isFreed) return this.caller.fail(new WindingError('Freed', `this ${this.kind} was freed`));
-    return this.caller.call({ method, handle: this.handle, args }, options as CallOptions | undefined);
+    const request: Request = { method, handle: this.handle, args };
+    return this.caller.call(makes === undefined ? request : { ...request, makes }, options as CallOptions | undefined);
+  }
+
+  /** Asks for a soup that is made of this shape: the answer with it as `soup`. */
+  protected derive(method: string, args: unknown[], options?: object): unknown {
+    const makes = this.caller.newHandle();
+    return this.caller.then(this.ask(method, args, options, makes), (value) => {
+      const { shape, ...rest } = value as { shape: Description };
+      return { soup: new SoupShape(this.caller, makes, shape), ...rest };
+    });
   }
 
   free(): void {
@@ -133,6 +143,10 @@ class BaseShape {
 
   offset(options: object): unknown {
     return this.ask('offset', [forEngine(options)], options);
+  }
+
+  repair(options?: object): unknown {
+    return this.derive('repair', [forEngine(options)], options);
   }
 
   heatMap(options: object): unknown {

@@ -9,11 +9,14 @@ type Plain<T> = T extends (...args: infer A) => Promise<infer R>
     : T;
 type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
 
-export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | keyof SyncDistances>, SyncDistances {
+export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | 'repair' | keyof SyncDistances>, SyncDistances {
   /** As in the other entry. */
   toCloud(options?: Parameters<api.Soup['toCloud']>[0]): Cloud;
+  repair(options?: api.RepairOptions): api.Repaired<Soup>;
 }
-export interface Cloud extends Omit<Synchronous<api.Cloud>, keyof SyncDistances>, SyncDistances {}
+export interface Cloud extends Omit<Synchronous<api.Cloud>, 'repair' | keyof SyncDistances>, SyncDistances {
+  repair(options?: api.RemeshOptions): api.Repaired<Soup>;
+}
 export type Shape = Soup | Cloud;
 
 /** An engine that answers at once, on the thread that asks. */

@@ -1,7 +1,7 @@
 export type * from './sync-api.js';
 export type {
   Accuracy, Bounds, Bytes, CallOptions, CloudArrays, CloudFormat, HeatMap, Info, Layer, Mesh, OrientOptions, Polygon,
-  Prepared, ReadOptions,
+  Prepared, ReadOptions, RemeshOptions, Repaired, RepairOptions, RepairReport,
   ClosestPoints, DistanceLattice, DistanceLatticeOptions, DistanceOptions, Drain, HollowOptions, OffsetOptions,
   BoundaryLoop, CheckOptions, CheckReport, FaceOrientOptions, FieldRegion, IndexPairs, Indices, OrientedFaces, ReasonKind, Shell,
   GCode, LayerPaths, PathKind, PrinterProfile, Regions, RequiredProfile, ToolpathSettings, Toolpaths, SliceOptions, SoupArrays, SoupFormat, SurfaceOptions, VoxelOptions, Voxels, Warning,

@@ -8,13 +8,22 @@ import { StepFailed, run, say } from './run.mjs';
 import { bindgenTools, wasmEnvironment, wasmToolchain } from './rust.mjs';
 import { split } from './split.mjs';
 
-/** The file beside `fast_winding_bg.wasm` with what is loaded when first needed: areas and normals of clouds, surfaces, layers. */
+/** The file beside `fast_winding_bg.wasm` with what is loaded when first needed: all but fields, voxels and files. */
 export const MORE = 'fast_winding_more.wasm';
 const IN_MORE = new RegExp(
   [
-    String.raw`fast_winding\[[0-9a-f]+\]::((orient|estimate|polygon|print|surface|wasm::(printing|layers)|io::write::(dxf|json|svg|threemf)|io::threemf::packer|levelset::(cubes|cube_cases|bricks|blur|roots|sampling|squares)|treecode::mutual)::|slice::(?!heat_map))`,
-    String.raw`\bi_(overlay|float|shape|tree|key_sort)\[`,
-    '^(toolpaths|gcode|printSettings|exportLayers?|handle_(slice|layerSpans|surface|noise))$',
+    String.raw`fast_winding\[[0-9a-f]+\]::(${[
+      'arrangement|check|distance|estimate|orient|polygon|print|repair|surface',
+      'data::(bricks|topology)|io::write::(dxf|json|nrrd|svg|threemf|vox)|io::threemf::packer',
+      'levelset::(cubes|cube_cases|bricks|blur|roots|sampling|squares)|math::(closest|ray|triangles_meet)',
+      'solid::(boolean|continuation|difference|distance)|treecode::mutual|winding::stab',
+      'wasm::(boolean|checking|distance|layers|printing|repairing|voxels)',
+    ].join('|')})::`,
+    String.raw`fast_winding\[[0-9a-f]+\]::(slice::(?!heat_map)|solid::voxels::voxelize_(by_rays|bricks))`,
+    String.raw`fast_winding\[[0-9a-f]+\]::winding::field::WindingField>::(save|load)$|wasm::handle::Handle>::load$`,
+    String.raw`\b(i_(overlay|float|shape|tree|key_sort)|spade)\[`,
+    `^(toolpaths|gcode|printSettings|exportLayers?|exportVoxels|compareVoxels|voxelSurface)$`,
+    `^handle_(slice|layerSpans|surface|noise|save|voxelBricks|check|orientFaces|signedDistance|distanceLattice|closestPoints|offset|hollow|repair|boolean)$`,
   ].join('|'),
 );
 

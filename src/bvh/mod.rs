@@ -1,10 +1,12 @@
 //! A bounding volume hierarchy of boxes, four children to a node. It owns *the* traversal of the crate; what is
 //! looked for comes in as closures.
 mod build;
+mod disc;
 mod first_hit;
 mod morton;
 mod narrow;
 mod nearest;
+mod overlaps;
 mod sort;
 
 pub use build::cut_at_highest_bit;

@@ -28,7 +28,13 @@ pub(crate) struct Directory {
 
 impl Directory {
     /// A directory of a lattice, outside everywhere.
+    ///
+    /// # Errors
+    /// If and only if it does not fit in memory, or the lattice has more than [`Lattice::MAX_SAMPLES`].
     pub fn new(lattice: &Lattice) -> Result<Directory, OutOfMemory> {
+        if lattice.len() > Lattice::MAX_SAMPLES {
+            return Err(OutOfMemory { bytes: lattice.len() });
+        }
         let bricks = lattice.counts.map(|n| n.div_ceil(BRICK_SIDE));
         let nodes_along = bricks.map(|n| n.div_ceil(BRICK_SIDE));
         let mut tops = zeroed(nodes_along.iter().product())?;
@@ -240,9 +246,7 @@ impl VoxelBricks {
     /// # Errors
     /// If and only if they do not fit in memory.
     pub fn to_voxels(&self) -> Result<Voxels, OutOfMemory> {
-        let bits = zeroed(self.lattice.len().div_ceil(8))?;
-        let mut voxels =
-            Voxels::from_bits(self.lattice, bits).expect("as many bits as the lattice has samples");
+        let mut voxels = Voxels::of_bits(self.lattice, zeroed(self.lattice.len().div_ceil(8))?);
         for (at, brick) in self.each() {
             let mask = self.mask(at);
             let bits = if let Brick::Mixed(bits) = brick { bits } else { &mask };

@@ -45,6 +45,11 @@ impl Voxels {
         Ok(Voxels { lattice, bits })
     }
 
+    /// Of as many bits as the lattice has samples.
+    pub(crate) fn of_bits(lattice: Lattice, bits: Vec<u8>) -> Voxels {
+        Voxels { lattice, bits }
+    }
+
     /// Voxels of a byte each, x fastest: inside where it is not 0.
     ///
     /// # Errors

@@ -71,15 +71,20 @@ impl DistanceTree {
         };
         match shape {
             Shape::Soup(soup) => {
+                let of_triangle = |t: u32| {
+                    let corners = soup.corners(t as usize);
+                    (corners, area_vector(corners))
+                };
                 let boxes = map_items(soup.len(), |t| Aabb::around(soup.corners(t)));
-                let tree = NarrowBvh::new(&of_boxes(&boxes), note);
+                let tree = NarrowBvh::new(&of_boxes(&boxes), of_triangle, note);
                 let packs = map_items(numbers.len(), |k| TrianglePack::new(soup, &tree, &numbers[k]));
                 DistanceTree { tree, leaves: Leaves::Triangles(soup.clone(), packs) }
             }
             Shape::Cloud(cloud) => {
                 let points = cloud.points();
+                let of_point = |i: u32| ([points[i as usize]; 3], cloud.normals()[i as usize]);
                 let boxes = map_items(points.len(), |i| Aabb { min: points[i], max: points[i] });
-                let tree = NarrowBvh::new(&of_boxes(&boxes), note);
+                let tree = NarrowBvh::new(&of_boxes(&boxes), of_point, note);
                 let packs = map_items(numbers.len(), |k| PointPack::new(points, &numbers[k]));
                 DistanceTree { tree, leaves: Leaves::Points(cloud.clone(), packs) }
             }
@@ -168,7 +173,7 @@ impl DistanceTree {
                 self.tree.search(&from, start, &mut search.open, |leaf, mut limit| {
                     let pack = &packs[leaf];
                     let narrow = pack.squared_distances(&from);
-                    for (narrow, element) in narrow.into_iter().zip(pack.elements) {
+                    for (&narrow, &element) in narrow.iter().zip(&pack.elements) {
                         if narrow <= limit && element != best.1 {
                             let corners = soup.corners(element as usize);
                             let found = (squared_distance_to_triangle(place, corners), element);

@@ -24,8 +24,10 @@ pub struct TrianglePack {
 
 type Wide = [f32x4; 3];
 
+#[inline(always)]
 fn wide(values: &[Four; 3]) -> Wide {
-    [0, 1, 2].map(|axis| f32x4::new(values[axis]))
+    // Written out: calls of `map` are not inlined here.
+    [f32x4::new(values[0]), f32x4::new(values[1]), f32x4::new(values[2])]
 }
 
 #[inline(always)]
@@ -78,7 +80,8 @@ impl TrianglePack {
     /// Squared distances in 32-bit floats.
     #[inline]
     pub fn squared_distances(&self, from: &Narrowed) -> Four {
-        let place = from.place.map(f32x4::splat);
+        let [x, y, z] = from.place;
+        let place = [f32x4::splat(x), f32x4::splat(y), f32x4::splat(z)];
         let (ab, ac, normal) = (wide(&self.ab), wide(&self.ac), wide(&self.normal));
         let p = minus(&place, &wide(&self.a));
         let (pb, bc) = (minus(&p, &ab), minus(&ac, &ab));
@@ -110,6 +113,12 @@ impl PointPack {
 
     #[inline]
     pub fn squared_distances(&self, place: Vec3) -> [f64; LEAF_SIZE] {
-        self.points.map(|p| p.distance_squared(place))
+        let [a, b, c, d] = &self.points;
+        [
+            a.distance_squared(place),
+            b.distance_squared(place),
+            c.distance_squared(place),
+            d.distance_squared(place),
+        ]
     }
 }

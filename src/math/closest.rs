@@ -36,13 +36,14 @@ pub struct OnTriangle {
 
 /// Where the foot of the perpendicular from `q` lies in the triangle's plane, as weights of the corners that are all above 0, and
 /// the scaled normal; nothing if it lies outside the triangle or on its outline, or if the triangle has no area.
-#[inline]
+#[inline(always)]
 fn foot(q: Vec3, [a, b, c]: [Vec3; 3]) -> Option<([f64; 3], Vec3, f64)> {
     let normal = (b - a).cross(c - a);
     let square = normal.length_squared();
     let weight = |s: Vec3, t: Vec3| normal.cross(t - s).dot(q - s);
     let weights = [weight(b, c), weight(c, a), weight(a, b)];
-    let is_within = weights.iter().all(|w| *w > 0.0) && square > f64::MIN_POSITIVE && square.is_finite();
+    let [wa, wb, wc] = weights;
+    let is_within = wa > 0.0 && wb > 0.0 && wc > 0.0 && square > f64::MIN_POSITIVE && square.is_finite();
     is_within.then_some((weights, normal, square))
 }
 

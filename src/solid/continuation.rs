@@ -116,6 +116,9 @@ pub(super) fn along_the_level_set(
     monitor: &dyn Monitor,
 ) -> Result<VoxelBricks, VoxelError> {
     let mut states = States { lattice, directory: Directory::new(lattice)?, bricks: Vec::new() };
+    if lattice.is_empty() {
+        return Ok(VoxelBricks::outside(lattice)?);
+    }
     let mut wave = seeds(field.shape(), lattice)?;
     // How far it has to go is not known.
     let undetermined = |_: f64, _: &str| monitor.report(0.0, "voxels").is_ok();

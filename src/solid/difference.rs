@@ -11,10 +11,9 @@ pub struct VoxelDifference {
 
 /// Two sets of voxels are not of one lattice.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("voxels of different lattices cannot be compared: {first:?} and {second:?}")]
+#[error("voxels of different lattices cannot be compared: {:?} and {:?}", self.lattices[0], self.lattices[1])]
 pub struct DifferentLattices {
-    pub first: Lattice,
-    pub second: Lattice,
+    pub lattices: Box<[Lattice; 2]>,
 }
 
 impl VoxelDifference {
@@ -40,7 +39,7 @@ pub fn difference(
 ) -> Result<VoxelDifference, DifferentLattices> {
     let lattice = *first.lattice();
     if lattice != *second.lattice() {
-        return Err(DifferentLattices { first: lattice, second: *second.lattice() });
+        return Err(DifferentLattices { lattices: Box::new([lattice, *second.lattice()]) });
     }
     let [nx, ny, nz] = lattice.counts;
     let planes = map_tasks(nz, |k| {

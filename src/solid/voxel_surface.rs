@@ -37,7 +37,7 @@ fn exposed_faces(voxels: &dyn VoxelRows) -> Result<SurfaceMesh, OutOfMemory> {
     let mut vertices: [Vec<u32>; 2] = [zeroed(nodes)?, zeroed(nodes)?];
     vertices.iter_mut().for_each(|side| side.fill(NONE));
     let read = |k: usize, plane: &mut [u8]| match k < nz {
-        true => plane.chunks_mut(nx).enumerate().for_each(|(j, row)| voxels.row([0, j, k], row)),
+        true => plane.chunks_mut(nx.max(1)).enumerate().for_each(|(j, row)| voxels.row([0, j, k], row)),
         false => plane.fill(0),
     };
     read(0, &mut planes[2]);
@@ -49,7 +49,7 @@ fn exposed_faces(voxels: &dyn VoxelRows) -> Result<SurfaceMesh, OutOfMemory> {
         vertices.swap(0, 1);
         vertices[1].fill(NONE);
         let inside = |[x, y, z]: [usize; 3]| x < nx && y < ny && planes[z][y * nx + x] == 1;
-        for (j, row) in planes[1].chunks(nx).enumerate() {
+        for (j, row) in planes[1].chunks(nx.max(1)).enumerate() {
             for i in (0..nx).filter(|i| row[*i] == 1) {
                 // In this frame the plane is the second of three.
                 let sample = [i, j, 1];

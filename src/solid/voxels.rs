@@ -1,7 +1,6 @@
 use super::continuation::along_the_level_set;
 use crate::data::{
-    Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, Shape, TriangleSoup, VoxelBricks, VoxelDataError,
-    Voxels,
+    Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, Shape, TriangleSoup, VoxelBricks, Voxels,
 };
 use crate::winding::{FieldConfig, FieldError, Order, Stabbing, WindingField, stab_lattice};
 
@@ -54,8 +53,6 @@ pub enum VoxelError {
     Cancelled(#[from] Cancelled),
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    #[error(transparent)]
-    Data(#[from] VoxelDataError),
     #[error("a threshold of {0} is not possible: it must be a finite number")]
     BadThreshold(f64),
     #[error("an opening distance of {0} is not possible: it must be a finite number above 0")]
@@ -122,7 +119,7 @@ pub fn voxelize(
             field.classify_lattice(lattice, threshold, &named)?
         }
     };
-    Ok(Voxels::from_bits(*lattice, bits)?)
+    Ok(Voxels::of_bits(*lattice, bits))
 }
 
 /// [`voxelize`] by rays: no field is needed. The threshold matters to signed crossings alone.
@@ -138,7 +135,7 @@ pub fn voxelize_by_rays(
 ) -> Result<Voxels, VoxelError> {
     VoxelConfig { threshold, method: VoxelMethod::Rays(stabbing) }.check()?;
     let named = |fraction: f64, _: &str| monitor.report(fraction, "voxels").is_ok();
-    Ok(Voxels::from_bits(*lattice, stab_lattice(soup, lattice, stabbing, threshold, &named)?)?)
+    Ok(Voxels::of_bits(*lattice, stab_lattice(soup, lattice, stabbing, threshold, &named)?))
 }
 
 /// The field of points in the place of the triangles of a soup.

@@ -87,7 +87,6 @@ impl From<VoxelError> for Failure {
             VoxelError::Lattice(lattice) => lattice.into(),
             VoxelError::Cancelled(cancelled) => cancelled.into(),
             VoxelError::OutOfMemory(out_of_memory) => out_of_memory.into(),
-            VoxelError::Data(data) => data.into(),
             VoxelError::BadThreshold(_) | VoxelError::BadBeta(_) | VoxelError::NoTriangles { .. } => {
                 Failure::invalid(&error)
             }

@@ -256,6 +256,17 @@ impl Handle {
 }
 
 impl Handle {
+    /// A soup that the engine has made.
+    pub(super) fn of_soup(soup: TriangleSoup, format: &'static str) -> Handle {
+        Handle {
+            source: Source::Soup(Arc::new(soup)),
+            format,
+            warnings: vec![],
+            field: None,
+            distances: None,
+        }
+    }
+
     fn orient_where_asked(&mut self, orient: Option<options::Orient>, job: &Job) -> Result<(), Failure> {
         match (&self.source, orient) {
             (Source::Cloud { given, .. }, Some(options::Orient::Auto)) if given.normals().is_none() => {

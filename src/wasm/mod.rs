@@ -15,6 +15,7 @@ mod options;
 mod pieces;
 mod printing;
 mod queries;
+mod repairing;
 mod results;
 mod saving;
 mod voxels;

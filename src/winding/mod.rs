@@ -44,7 +44,7 @@ pub use crate::treecode::{Order, Scratch};
 pub use bounded::{
     bounded, bounded_gradient_of_cloud, bounded_slope, bounded_winding_in_plane, bounded_winding_of_cloud,
 };
-pub(crate) use chain::{components, net_edges, weld};
+pub(crate) use chain::{components, cycles, net_edges, weld};
 pub use dipoles::Dipoles;
 pub use exact::{winding, winding_of_cloud, winding_of_soup};
 pub use field::{Accuracy, FieldConfig, FieldError, FieldReport, WindingField};

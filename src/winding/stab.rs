@@ -86,15 +86,15 @@ fn stab_rows(
     monitor: &dyn Monitor,
 ) -> Result<Vec<u8>, FieldError> {
     let closure = Closure::default();
-    let scan = Scan::new(Facets { soup, closure: &closure }, 0..soup.len(), lattice);
     let mut bits = zeroed::<u8>(lattice.len().div_ceil(8))?;
+    let scan = Scan::new(Facets { soup, closure: &closure }, 0..soup.len(), lattice);
     let fill = |_: usize, counted: &Slab, bits: &mut [u8]| -> Vec<()> {
         for (byte, crossings) in bits.iter_mut().zip(counted.crossings.chunks(8)) {
             *byte = byte_of(crossings.iter().map(|n| is_inside(*n)));
         }
         vec![]
     };
-    const { assert!(SLAB_PLANES % 8 == 0, "the bits of a slab fill bytes") };
+    const { assert!(SLAB_PLANES.is_multiple_of(8), "the bits of a slab fill bytes") };
     for_each_slab(&scan, 0..lattice.counts[2], &mut bits, 1, fill, "ray stabbing", monitor)?;
     Ok(bits)
 }

@@ -1,13 +1,15 @@
 //! Times of distances: `distance MODEL [--points FILE] [--lattice N] [--sign hard|smooth|none] [--band MM] [--rounds N] [--output FILE]`.
+//! With `--offset MM` or `--hollow MM` instead, and `--resolution N` and `--sharp A`: surfaces at a distance, walls of a thickness.
 //!
 //! FILE holds the points as raw f64, x, y, z; a lattice has N samples along each side of the model's bounds, grown by a tenth of their
 //! diagonal. Prints JSON: medians in seconds of the field (`field`), the tree (`tree`) and the distances (`query`), in nanoseconds for
 //! each place (`each`). `--output` takes the distances as raw f64.
-use fast_winding::data::{Lattice, Shape, Silent};
+use fast_winding::data::{Lattice, Shape, Silent, SurfaceMesh};
 use fast_winding::estimate::{EstimateConfig, complete};
 use fast_winding::io::{self, Geometry};
 use fast_winding::math::Vec3;
 use fast_winding::solid::{DistanceConfig, DistanceSign, SignedDistance};
+use fast_winding::surface::{HollowConfig, OffsetConfig, hollow, offset};
 use fast_winding::winding::WindingField;
 use std::collections::HashMap;
 use std::time::Instant;
@@ -41,7 +43,11 @@ fn main() {
         let distance = SignedDistance::new(&field);
         trees.push(start.elapsed().as_secs_f64());
         let bounds = field.bounds().padded(0.1 * field.bounds().diagonal());
-        if let Some(count) = options.get("lattice") {
+        let start = Instant::now();
+        if let Some(made) = surface(&field, &options) {
+            queries.push(start.elapsed().as_secs_f64());
+            found = vec![made.volume(); made.triangles.len()];
+        } else if let Some(count) = options.get("lattice") {
             let count = count.parse().expect("a number");
             let lattice = Lattice::with_counts(bounds, [count; 3]).expect("a lattice");
             let start = Instant::now();
@@ -69,6 +75,20 @@ fn main() {
         "{{\"field\": {field:.5}, \"tree\": {tree:.5}, \"query\": {query:.5}, \"each\": {each:.1}, \"places\": {}}}",
         found.len()
     );
+}
+
+/// A surface at a distance, or walls, if they are asked for.
+fn surface(field: &WindingField, options: &HashMap<&str, &str>) -> Option<SurfaceMesh> {
+    let number = |name: &str| options.get(name).map(|n| n.parse::<f64>().expect("a number"));
+    let resolution = number("resolution").map(|n| n as usize);
+    let sharp = number("sharp");
+    if let Some(distance) = number("offset") {
+        let config = OffsetConfig { distance, resolution, sharp, ..OffsetConfig::default() };
+        return Some(offset(field, &config, &Silent).expect("a surface"));
+    }
+    let thickness = number("hollow")?;
+    let config = HollowConfig { thickness, resolution, sharp, ..HollowConfig::default() };
+    Some(hollow(field, &config, &Silent).expect("walls"))
 }
 
 fn read_points(path: &str) -> Vec<Vec3> {

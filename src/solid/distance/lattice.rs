@@ -103,7 +103,7 @@ impl SignedDistance<'_> {
         let across: Vec<[usize; 2]> = snake(rows.len(), layers.len());
         for i in 0..nx {
             // Forth and back: each sample is next to the last one.
-            let turn = |n: usize| if i % 2 == 0 { n } else { across.len() - 1 - n };
+            let turn = |n: usize| if i.is_multiple_of(2) { n } else { across.len() - 1 - n };
             for n in 0..across.len() {
                 let [j, k] = across[turn(n)];
                 let place = lattice.point([i, rows.start + j, layers.start + k]);
@@ -117,6 +117,6 @@ impl SignedDistance<'_> {
 
 /// All of `rows` × `layers`, each next to the last.
 fn snake(rows: usize, layers: usize) -> Vec<[usize; 2]> {
-    let row = |k: usize, n: usize| if k % 2 == 0 { n } else { rows - 1 - n };
+    let row = |k: usize, n: usize| if k.is_multiple_of(2) { n } else { rows - 1 - n };
     (0..layers).flat_map(|k| (0..rows).map(move |n| [row(k, n), k])).collect()
 }

@@ -162,7 +162,9 @@ impl<'a> Creases<'a> {
         let ends = ends.map(|v| self.moved[v as usize]);
         let [from, to] = [edge_of(a, b, ends[0])?, edge_of(a, b, ends[1])?];
         let [before, after] = [from.distance(ends[0]), to.distance(ends[1])];
-        Some(from + before / (before + after) * (to - from))
+        // Both on it: anywhere between them.
+        let share = if before + after > 0.0 { before / (before + after) } else { 0.5 };
+        Some(from + share * (to - from))
     }
 
     fn corner_in(&self, triangle: u32, evidence: &dyn Evidence, search: &mut Search) -> Option<Vec3> {

@@ -40,10 +40,11 @@ impl Plane {
     /// A place in this plane moved within it, away from the line where it meets another, so that it is on the side where this plane's
     /// data is. What is less than `margin` away from the line, or beyond it, keeps its order: no two places fall together.
     pub fn kept_off(&self, place: Vec3, other: &Plane, margin: f64) -> Vec3 {
-        if self.bend(other) == 0.0 {
+        let away = -self.bend(other) * (other.normal - other.normal.dot(self.normal) * self.normal);
+        // Parallel planes, of the two sides of a wall, meet nowhere.
+        if away.length_squared() < PARALLEL {
             return place;
         }
-        let away = -self.bend(other) * (other.normal - other.normal.dot(self.normal) * self.normal);
         let sine = away.length();
         let distance = -self.bend(other) * other.distance(place) / sine;
         // The hyperbola goes on from the straight line without a kink, and never reaches 0.
@@ -119,5 +120,7 @@ mod tests {
         assert_eq!(floor.bend(&concave), -1.0);
         let brought_back = floor.kept_off(Vec3::new(-0.3, 2.0, 0.0), &concave, 0.1);
         assert!(brought_back.abs_diff_eq(Vec3::new(0.02, 2.0, 0.0), 1e-15));
+        let below = plane([0.0, 0.0, -0.2], [0.0, 0.0, -1.0]);
+        assert_eq!(top.kept_off(Vec3::ONE, &below, 0.1), Vec3::ONE);
     }
 }

@@ -1,0 +1,112 @@
+//! The points of an arrangement: the given vertices, and those that are made, each once.
+use super::contacts::Key;
+use super::twofold::{Place, Twofold};
+use crate::data::map_items;
+use crate::math::Vec3;
+use rustc_hash::FxHashMap;
+
+/// Vertices by number: first those given, then those made, in twice the precision. No two of those that were named or made
+/// are in the same place after rounding.
+pub struct Points {
+    positions: Vec<Vec3>,
+    given: usize,
+    made: Vec<Place>,
+    numbers: FxHashMap<[u64; 3], u32>,
+}
+
+fn bits(p: Vec3) -> [u64; 3] {
+    (p + Vec3::ZERO).to_array().map(f64::to_bits)
+}
+
+impl Points {
+    pub fn new(positions: Vec<Vec3>) -> Points {
+        Points { given: positions.len(), positions, made: Vec::new(), numbers: FxHashMap::default() }
+    }
+
+    /// Makes a given vertex one that new points can fall on.
+    pub fn name(&mut self, vertex: u32) {
+        self.numbers.entry(bits(self.positions[vertex as usize])).or_insert(vertex);
+    }
+
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    pub fn into_positions(self) -> Vec<Vec3> {
+        self.positions
+    }
+
+    #[inline]
+    pub fn at(&self, point: u32) -> Place {
+        match (point as usize).checked_sub(self.given) {
+            Some(made) => self.made[made],
+            None => self.positions[point as usize].into(),
+        }
+    }
+
+    /// The point in that place after rounding, made if there is none; nothing if the place is not finite.
+    pub fn add(&mut self, place: Place) -> Option<u32> {
+        if !place.is_finite() {
+            return None;
+        }
+        let rounded = place.rounded();
+        let next = self.positions.len() as u32;
+        let number = *self.numbers.entry(bits(rounded)).or_insert(next);
+        if number == next {
+            self.positions.push(rounded);
+            self.made.push(place);
+        }
+        Some(number)
+    }
+
+    /// The points of sorted keys.
+    pub fn resolve(&mut self, keys: &[Key], corners: &[[u32; 3]]) -> Vec<Option<u32>> {
+        let places = map_items(keys.len(), |i| match keys[i] {
+            Key::Vertex(_) => Place::default(),
+            Key::Edges(e, f) => self.crossing(e, f),
+            Key::Face(e, triangle) => self.piercing(e, corners[triangle as usize]),
+        });
+        let add = |(key, place): (&Key, Place)| match key {
+            Key::Vertex(v) => Some(*v),
+            _ => self.add(place),
+        };
+        keys.iter().zip(places).map(add).collect()
+    }
+
+    /// Where the segments between two pairs of points of one plane cross: a share of the way along the first.
+    pub fn share(&self, e: [u32; 2], f: [u32; 2]) -> Twofold {
+        let ([a, b], [c, d]) = (e.map(|v| self.at(v)), f.map(|v| self.at(v)));
+        let (along, other, between) = (b.minus(a), d.minus(c), c.minus(a));
+        let normal = along.cross(other);
+        let k = normal.dominant();
+        between.cross_component(other, k) / normal.0[k]
+    }
+
+    fn crossing(&self, e: [u32; 2], f: [u32; 2]) -> Place {
+        self.between(e, self.share(e, f))
+    }
+
+    pub fn between(&self, [a, b]: [u32; 2], share: Twofold) -> Place {
+        let [a, b] = [a, b].map(|v| self.at(v));
+        a.plus_scaled(share, b.minus(a))
+    }
+
+    /// Where an edge goes through the plane of a triangle.
+    fn piercing(&self, e: [u32; 2], corners: [u32; 3]) -> Place {
+        let mut corners = corners;
+        corners.sort();
+        let [p, q, r] = corners.map(|v| self.at(v));
+        let [a, b] = e.map(|v| self.at(v));
+        let normal = q.minus(p).cross(r.minus(p));
+        let along = b.minus(a);
+        a.plus_scaled(normal.dot(p.minus(a)) / normal.dot(along), along)
+    }
+
+    /// The share of the way from a to b at which a point of the line through them lies.
+    pub fn share_at(&self, [a, b]: [u32; 2], point: u32) -> Twofold {
+        let [a, b, p] = [a, b, point].map(|v| self.at(v));
+        let along = b.minus(a);
+        let k = along.dominant();
+        p.minus(a).0[k] / along.0[k]
+    }
+}
