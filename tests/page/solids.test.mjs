@@ -55,7 +55,7 @@ describe('signed distances', () => {
       await page.waitForSelector('#distance-legend:not([hidden])');
       assert.ok(!(await page.isChecked('#heat')), 'one colour at a time');
       await page.waitForSelector('#legend', { state: 'hidden' });
-      assert.match(await page.textContent('#distance-title'), /^distance in mm, a line each \d+(\.\d+)? mm$/);
+      assert.match(await page.textContent('#distance-title'), /^a line every \d+(\.\d+)? mm$/);
       const ticks = await page.locator('#distance-ticks span').allTextContents();
       assert.ok(ticks.includes('0') && ticks.some((tick) => tick.startsWith('−')) && ticks.some((tick) => tick.startsWith('+')), ticks.join(' '));
       assert.match(await page.getAttribute('#plan-svg .isoline.zero', 'd'), /^M.*L/);
