@@ -9,7 +9,6 @@ import { attempt } from './attempt.ts';
 import { fileSource } from './open.ts';
 import { load } from './load.ts';
 import { only } from './only.ts';
-import { sourceOf } from './source.ts';
 import { timed } from './timed.ts';
 
 /** Parts of the model's diagonal that a simple shape is large. */
@@ -26,10 +25,15 @@ export async function makeSecond(page: Page, name: PrimitiveName): Promise<void>
   const { positions, indices } = PRIMITIVES[name].make();
   const [size, centre] = [SIZE * diagonal(bounds) || 1, centreOf(bounds)];
   const placed = positions.map((value, i) => size * value + centre[i % 3]);
-  const soup = await page.engine.Soup.from({ positions: placed, indices });
-  const source = await sourceOf(soup, name);
-  soup.free();
-  await takeSecond(page, source);
+  const read = async (): Promise<Uint8Array> => {
+    const soup = await page.engine.Soup.from({ positions: placed, indices });
+    try {
+      return await soup.export('ply');
+    } finally {
+      soup.free();
+    }
+  };
+  await takeSecond(page, { name, unit: 'millimeter', read });
 }
 
 async function takeSecond(page: Page, source: Source): Promise<void> {
