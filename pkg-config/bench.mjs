@@ -29,6 +29,10 @@ const BENCHES = {
     await assemble();
     await run('node', [script('layers.mjs'), ...options], { cwd: root });
   },
+  async booleans(options) {
+    await assemble();
+    await run('node', [script('booleans.mjs'), ...options], { cwd: root });
+  },
   async scale() {
     await assemble();
     await run('node', [script('scale.mjs')], { cwd: root });

@@ -2,6 +2,7 @@
 mod common;
 
 use common::*;
+use fast_winding::check::{CheckConfig, check};
 use fast_winding::data::{Silent, SurfaceMesh, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3, area_vector};
 use fast_winding::repair::{
@@ -264,6 +265,24 @@ fn a_remeshed_box_without_a_face_has_its_edges_and_a_flat_lid() {
     assert!(distances.most_from_input < 0.5 * distances.spacing, "{distances:?}");
     assert!(distances.on_input > 0.8, "{distances:?}");
     assert!(made.report.agreement > 0.97, "{:?}", made.report);
+}
+
+#[test]
+fn nothing_runs_through_itself_after_either_repair() {
+    // A thin wall that leans, through a box: sharp edges next to each other in one cell.
+    let lean = |p: Vec3| Vec3::new(p.x + 0.3 * p.z, 0.02 * p.y + 0.2 * p.x, 1.5 * p.z);
+    let wall = cube(1.0);
+    let positions = wall.positions().iter().map(|p| lean(*p)).collect();
+    let wall = TriangleSoup::new(positions, wall.triangles().to_vec()).unwrap();
+    let soup = joined(&[cube(1.0), wall]);
+    let crossings = |soup: &TriangleSoup| {
+        let found = check(&field(soup), &CheckConfig::default(), &Silent).unwrap();
+        (found.self_intersections.unwrap().count, found.boundary.loops.count)
+    };
+    assert!(crossings(&soup).0 > 0);
+    let config = RemeshConfig { resolution: Some(48), ..RemeshConfig::default() };
+    let made = remesh(&field(&soup), &config, &Silent).unwrap();
+    assert_eq!((crossings(&conserved(&soup).0.soup), crossings(&made.soup)), ((0, 0), (0, 0)));
 }
 
 #[test]

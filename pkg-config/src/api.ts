@@ -1,8 +1,10 @@
+import type { BooleanOperation, BooleanOptions, BooleanResult } from './boolean-api.js';
+import type { CheckOptions, CheckReport, FaceOrientOptions, OrientedFaces } from './check-api.js';
 import type { Distances, HollowOptions } from './distance-api.js';
 import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
-import type { CheckOptions, CheckReport, FaceOrientOptions, OrientedFaces } from './check-api.js';
 import type { RemeshOptions, Repaired, RepairOptions } from './repair-api.js';
 import type { VoxelFunctions, VoxelMethodOptions, VoxelShape } from './voxels-api.js';
+export type * from './boolean-api.js';
 export type * from './check-api.js';
 export type * from './distance-api.js';
 export type * from './print-api.js';
@@ -241,6 +243,11 @@ export interface Shape extends VoxelShape, Distances {
   /** The surface where w = 1/2, closed unless it is trimmed. */
   surface(options?: SurfaceOptions): Promise<Mesh>;
   heatMap(options: { z: number; resolution?: number } & CallOptions): Promise<HeatMap>;
+  /**
+   * The solids of this shape and another combined: each trimmed along the other's surface, exactly, and where that is missing along the
+   * level set of its field. Of closed soups the result is closed; what nothing cuts stays as it is.
+   */
+  boolean(operation: BooleanOperation, other: Shape, options?: BooleanOptions): Promise<BooleanResult>;
   /** The shape as a file: `stl` (binary), `obj`, `ply`, `off` or `3mf` for soups, `ply` or `xyz` for clouds. */
   export(format: SoupFormat | CloudFormat): Promise<Uint8Array>;
 }

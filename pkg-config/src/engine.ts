@@ -21,13 +21,14 @@ const FUNCTIONS = {
 } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', 'boolean', ...Object.keys(FUNCTIONS)];
 
 /** Ways of making voxels that take it. */
 const VOXELS_BY_MORE = ['continuation', 'rays', 'fast', 'cloud'];
 
-/** Whether bytes begin as a saved field does. */
-const isSaved = (bytes: unknown) => bytes instanceof Uint8Array && bytes[0] === 0x89 && bytes[1] === 0x46 && bytes[2] === 0x57;
+/** How saved fields begin, and archives such as 3MF: what reads them comes later too. */
+const READ_BY_MORE = [[0x89, 0x46, 0x57], [0x50, 0x4b]];
+const beginsSo = (bytes: unknown) => bytes instanceof Uint8Array && READ_BY_MORE.some((start) => start.every((byte, k) => bytes[k] === byte));
 
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
@@ -44,7 +45,7 @@ export class Engine {
 
   /** Whether a call estimates normals or areas, or makes surfaces or layers, which takes the part of the WebAssembly that comes later. */
   needsMore({ method, handle, args }: Request): boolean {
-    if (method === 'parse' && (args[1] === 'field' || isSaved(args[0]))) return true;
+    if (method === 'parse' && (args[1] === 'field' || beginsSo(args[0]))) return true;
     if (method === 'voxelize') {
       const { method: how = '', surface } = (args[0] ?? {}) as { method?: string; surface?: boolean };
       if (surface || VOXELS_BY_MORE.includes(how)) return true;
@@ -65,6 +66,7 @@ export class Engine {
     if (method === 'free') return this.free(handle);
     const shape = this.handles.get(handle);
     if (!shape) throw { code: 'Freed', message: 'this shape was freed', details: {} };
+    if (method === 'boolean') return this.combine(shape, args);
     const call = shape[method as keyof Handle] as (...args: unknown[]) => unknown;
     const value = call.apply(shape, [...args, this.job]);
     return makes === undefined ? value : this.keep(makes, value as { handle: Handle });
@@ -86,6 +88,13 @@ export class Engine {
     const handle = make.apply(this.glue.Handle, [...args, this.job]);
     this.handles.set(id, handle);
     return handle.describe();
+  }
+
+  /** The other operand comes as the number of its handle, and how it is moved. */
+  private combine(shape: Handle, [operation, other, transform, options]: unknown[]): unknown {
+    const second = this.handles.get(other as number);
+    if (!second) throw { code: 'Freed', message: 'the other shape was freed', details: {} };
+    return shape.boolean(operation as string, second.operand(transform, this.job), options, this.job);
   }
 
   private free(id: number): void {

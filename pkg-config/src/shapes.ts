@@ -153,6 +153,22 @@ class BaseShape {
     return this.ask('heatMap', [forEngine(options)], options);
   }
 
+  boolean(operation: string, other: unknown, options: CallOptions & { transform?: ArrayLike<number> } = {}): unknown {
+    if (!(other instanceof BaseShape) || other.caller !== this.caller) {
+      return this.caller.fail(new WindingError('InvalidArgument', 'the other operand must be a shape of the same engine'));
+    }
+    if (other.isFreed) return this.caller.fail(new WindingError('Freed', `the other ${other.kind} was freed`));
+    const { transform, ...rest } = options;
+    const matrix = transform && Array.from(transform);
+    const answer = this.ask('boolean', [operation, other.handle, matrix, forEngine(rest)], options);
+    return this.caller.then(answer, (combined) => {
+      const { positions, indices, faces, operands, warnings } = combined as Combined;
+      if (faces.length === 0) return { soup: null, faces, operands, warnings };
+      const made = make(this.caller, 'soup', [positions, indices], options, warnings);
+      return this.caller.then(made, (soup) => ({ soup, faces, operands, warnings }));
+    });
+  }
+
   export(format: string): unknown {
     return this.ask('export', [format]);
   }
@@ -160,6 +176,15 @@ class BaseShape {
   geometry(): unknown {
     return this.ask('geometry', []);
   }
+}
+
+/** What the engine answers to `boolean`. */
+interface Combined {
+  positions: Float64Array;
+  indices: Uint32Array;
+  faces: Uint32Array;
+  operands: Uint8Array;
+  warnings: Description['warnings'];
 }
 
 class SoupShape extends BaseShape {

@@ -9,12 +9,17 @@ type Plain<T> = T extends (...args: infer A) => Promise<infer R>
     : T;
 type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
 
-export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | 'repair' | keyof SyncDistances>, SyncDistances {
+/** As in the other entry. */
+type Combine = (operation: api.BooleanOperation, other: Shape, options?: api.BooleanOptions) => api.BooleanResult<Soup>;
+
+export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | 'repair' | 'boolean' | keyof SyncDistances>, SyncDistances {
+  boolean: Combine;
   /** As in the other entry. */
   toCloud(options?: Parameters<api.Soup['toCloud']>[0]): Cloud;
   repair(options?: api.RepairOptions): api.Repaired<Soup>;
 }
-export interface Cloud extends Omit<Synchronous<api.Cloud>, 'repair' | keyof SyncDistances>, SyncDistances {
+export interface Cloud extends Omit<Synchronous<api.Cloud>, 'repair' | 'boolean' | keyof SyncDistances>, SyncDistances {
+  boolean: Combine;
   repair(options?: api.RemeshOptions): api.Repaired<Soup>;
 }
 export type Shape = Soup | Cloud;

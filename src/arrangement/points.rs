@@ -12,7 +12,12 @@ pub struct Points {
     given: usize,
     made: Vec<Place>,
     numbers: FxHashMap<[u64; 3], u32>,
+    /// Coordinates of points that are made are 0 when they are smaller.
+    least: f64,
 }
+
+/// Of the largest coordinate: far below where rounding to single precision tells values apart, far above errors of twice that.
+const LEAST: f64 = 1e-27;
 
 fn bits(p: Vec3) -> [u64; 3] {
     (p + Vec3::ZERO).to_array().map(f64::to_bits)
@@ -20,7 +25,14 @@ fn bits(p: Vec3) -> [u64; 3] {
 
 impl Points {
     pub fn new(positions: Vec<Vec3>) -> Points {
-        Points { given: positions.len(), positions, made: Vec::new(), numbers: FxHashMap::default() }
+        let largest = positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        Points {
+            given: positions.len(),
+            positions,
+            made: Vec::new(),
+            numbers: FxHashMap::default(),
+            least: LEAST * largest,
+        }
     }
 
     /// Makes a given vertex one that new points can fall on.
@@ -49,6 +61,8 @@ impl Points {
         if !place.is_finite() {
             return None;
         }
+        let cleared = |x: Twofold| if x.high.abs() < self.least { Twofold::default() } else { x };
+        let place = Place(place.0.map(cleared));
         let rounded = place.rounded();
         let next = self.positions.len() as u32;
         let number = *self.numbers.entry(bits(rounded)).or_insert(next);

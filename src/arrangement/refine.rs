@@ -116,8 +116,9 @@ impl Work<'_> {
             match *event {
                 Event::Through(ends, point) => split(ends, point),
                 Event::Cross(e, f) => {
-                    let share = self.points.share(e, f);
-                    let is_between = (-1e-6..=1.0 + 1e-6).contains(&share.high);
+                    let [share, of_other] = [self.points.share(e, f), self.points.share(f, e)];
+                    let within = -1e-6..=1.0 + 1e-6;
+                    let is_between = within.contains(&share.high) && within.contains(&of_other.high);
                     let place = self.points.between(e, share);
                     if let Some(point) = is_between.then(|| self.points.add(place)).flatten() {
                         split(e, point);

@@ -175,12 +175,27 @@ fn constrain(
     let on_the_way = path.iter().map(|e| delaunay.directed_edge(*e).to()).filter(|v| v.fix() != to);
     events.extend(on_the_way.map(|v| Event::Through(ends, v.data().point)));
     if path.is_empty() {
+        let own = [from, to].map(|v| *delaunay.vertex(v).data());
         for edge in delaunay.get_conflicting_edges_between_vertices(from, to) {
-            let mut other = edge.vertices().map(|v| v.data().point);
-            other.sort_unstable();
-            events.push(Event::Cross(ends.min(other), ends.max(other)));
+            let other = edge.vertices().map(|v| *v.data());
+            // Segments of one line seem to cross, too.
+            let mut is_touched = false;
+            for (line, tips) in [(own, other), (other, own)] {
+                for tip in tips.iter().filter(|tip| is_near(line.map(|site| site.at), tip.at)) {
+                    events.push(Event::Through(sorted(line), tip.point));
+                    is_touched = true;
+                }
+            }
+            if !is_touched {
+                let (e, f) = (sorted(own), sorted(other));
+                events.push(Event::Cross(e.min(f), e.max(f)));
+            }
         }
     }
+}
+
+fn sorted([a, b]: [Site; 2]) -> [u32; 2] {
+    [a.point.min(b.point), a.point.max(b.point)]
 }
 
 /// Tells the points that lie next to a segment.
@@ -194,16 +209,20 @@ fn near(
     let Some(edge) = delaunay.get_edge_from_neighbors(from, to) else { return };
     for side in [edge, edge.rev()] {
         let Some(opposite) = side.opposite_vertex() else { continue };
-        let [a, b, c] = [side.from().data().at, side.to().data().at, opposite.data().at];
-        let (along, off) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-        let length_squared = dot(along, along);
-        let cross =
-            (i128::from(along[0]) * i128::from(off[1]) - i128::from(along[1]) * i128::from(off[0])) as f64;
-        let share = dot(along, off);
-        if share > 0.0 && share < length_squared && cross * cross <= NEAR * NEAR * length_squared {
+        if is_near([side.from().data().at, side.to().data().at], opposite.data().at) {
             events.push(Event::Through(ends, opposite.data().point));
         }
     }
+}
+
+/// Whether a place lies next to a segment, and between its ends.
+fn is_near([a, b]: [[i64; 2]; 2], c: [i64; 2]) -> bool {
+    let (along, off) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+    let length_squared = dot(along, along);
+    let [x, y, u, v] = [along[0], along[1], off[0], off[1]].map(i128::from);
+    let cross = (x * v - y * u) as f64;
+    let share = dot(along, off);
+    share > 0.0 && share < length_squared && cross * cross <= NEAR * NEAR * length_squared
 }
 
 fn dot(a: [i64; 2], b: [i64; 2]) -> f64 {

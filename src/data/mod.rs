@@ -13,6 +13,7 @@ mod sets;
 mod soup;
 mod soup_cloud;
 mod topology;
+mod transform;
 mod voxels;
 mod warning;
 
@@ -31,6 +32,7 @@ pub(crate) use saved::{Loader, Saver};
 pub(crate) use sets::{Sets, TwoKinds};
 pub use soup::{SoupError, TriangleSoup};
 pub(crate) use topology::{Edge, LeftOut, Topology};
+pub use transform::TransformError;
 pub use voxels::{VoxelDataError, VoxelRows, Voxels};
 pub use warning::{Warning, WarningKind};
 

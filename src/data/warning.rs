@@ -56,6 +56,18 @@ pub enum WarningKind {
     HighLayers,
     /// Lines are much narrower than the nozzle.
     NarrowLines,
+    /// Nothing is left of the operands.
+    EmptyResult,
+    /// One operand is that many times as large as the other: are their units the same?
+    DifferentScales,
+    /// Net boundary edges of operands: where triangles are missing, the other operand is cut along a level set.
+    OpenOperands,
+    /// An operand crosses itself where it is cut: what does not bound the result was dropped.
+    SelfCrossing,
+    /// Operands nearly coincide: they were cut as if their vertices lay on a grid.
+    SnappedOperands,
+    /// Faces whose pieces still cross, as coordinates are rounded.
+    CrossingFaces,
 }
 
 impl Warning {
@@ -109,6 +121,20 @@ impl fmt::Display for Warning {
             WarningKind::MovedToBed => write!(f, "the print lay off the bed and was moved to its middle"),
             WarningKind::HighLayers => write!(f, "{n} layers are higher than the nozzle is wide"),
             WarningKind::NarrowLines => write!(f, "{n} lines are narrower than 0.6 of the nozzle"),
+            WarningKind::EmptyResult => write!(f, "nothing is left of the operands"),
+            WarningKind::DifferentScales => {
+                write!(f, "one operand is {n} times as large as the other: check their units")
+            }
+            WarningKind::OpenOperands => {
+                write!(f, "{n} boundary edges: operands are open, and cut along level sets there")
+            }
+            WarningKind::SelfCrossing => {
+                write!(f, "an operand crosses itself at the cut: only what bounds the result is left")
+            }
+            WarningKind::SnappedOperands => {
+                write!(f, "surfaces nearly coincide: they were cut as if vertices lay on a fine grid")
+            }
+            WarningKind::CrossingFaces => write!(f, "pieces of {n} faces cross after rounding"),
         }
     }
 }

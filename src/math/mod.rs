@@ -12,7 +12,7 @@ mod triangles_meet;
 pub use aabb::Aabb;
 pub use chebyshev::{Nodes, bernstein, lebesgue};
 pub use closest::{Feature, OnTriangle, closest_on_triangle, squared_distance_to_triangle};
-pub use glam::{DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
+pub use glam::{DAffine3 as Affine, DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
 pub use plane::{PlaneFit, fit_plane};
 pub use predicates::{
     Sign, covers, meet, normal_signs, orient, orient_yz, perturbed_side_of_plane, side_of_edge,

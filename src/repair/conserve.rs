@@ -167,7 +167,11 @@ fn righted(
 }
 
 /// The parts of a closed soup that bound its inside.
-fn resolved(faces: &Faces, report: &mut RepairReport, monitor: &dyn Monitor) -> Result<Faces, RepairError> {
+pub(super) fn resolved(
+    faces: &Faces,
+    report: &mut RepairReport,
+    monitor: &dyn Monitor,
+) -> Result<Faces, RepairError> {
     let made = arrange(faces.positions.clone(), &faces.triangles, Pairs::All, monitor)?;
     for parts in made.sources.chunk_by(|one, other| one == other).filter(|parts| parts.len() > 1) {
         report.intersecting += 1;
@@ -179,7 +183,7 @@ fn resolved(faces: &Faces, report: &mut RepairReport, monitor: &dyn Monitor) -> 
 }
 
 /// Drops pieces, triangles joined by edges, that enclose next to nothing.
-fn drop_sheets(faces: &mut Faces, report: &mut RepairReport) {
+pub(super) fn drop_sheets(faces: &mut Faces, report: &mut RepairReport) {
     let sides = sides_by_edge(&faces.triangles);
     let mut sets = Sets::new(faces.triangles.len());
     edges(&sides).for_each(|same| same.iter().for_each(|(_, side)| sets.join(same[0].1 / 3, side / 3)));

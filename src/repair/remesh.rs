@@ -1,7 +1,9 @@
 //! The surface of {w ≥ 1/2} as a new mesh.
 use super::agreement::agreement;
-use super::conserve::volume;
+use super::conserve::{drop_sheets, resolved, volume};
 use super::distances::distances;
+use super::faces::Faces;
+use super::manifold::separate;
 use super::{RepairError, RepairMethod, RepairReport, Repaired};
 use crate::data::{Monitor, Shape, TriangleSoup, ascending};
 use crate::surface::{SurfaceConfig, extract};
@@ -43,7 +45,7 @@ impl Default for RemeshConfig {
     }
 }
 
-/// The surface of {w ≥ 1/2}: closed, manifold, oriented outward. Its vertices lie on the input where the input bounds the inside, on
+/// The surface of {w ≥ 1/2}: closed, manifold, oriented outward, without triangles that run through each other. Its vertices lie on the input where the input bounds the inside, on
 /// w = 1/2 where it is missing.
 ///
 /// # Errors
@@ -90,7 +92,8 @@ fn traced(
     if mesh.triangles.is_empty() {
         return Err(RepairError::Empty);
     }
-    let soup = TriangleSoup::from(mesh);
+    let mut found = RepairReport::default();
+    let soup = untangled(TriangleSoup::from(mesh), &mut found, monitor)?;
     let measured = match (field.shape(), spacing) {
         (Shape::Soup(input), Some(spacing)) => Some(distances(&soup, input, field, spacing, monitor)?),
         _ => None,
@@ -102,9 +105,28 @@ fn traced(
         volume: volume(&soup),
         agreement: agreement(&soup, field, monitor)?,
         distances: measured,
+        intersecting: found.intersecting,
+        parts: found.parts,
+        unresolved: found.unresolved,
         ..RepairReport::default()
     };
     Ok(Repaired { soup, sources: Vec::new(), report })
+}
+
+/// A closed mesh without the few triangles that run through each other where sharp edges were put into narrow places: split there, and
+/// the parts kept that bound the inside.
+fn untangled(
+    soup: TriangleSoup,
+    report: &mut RepairReport,
+    monitor: &dyn Monitor,
+) -> Result<TriangleSoup, RepairError> {
+    let mut faces = resolved(&Faces::of(&soup), report, monitor)?;
+    if report.intersecting == 0 {
+        return Ok(soup);
+    }
+    let is_closed = separate(&mut faces, &mut RepairReport::default());
+    drop_sheets(&mut faces, &mut RepairReport::default());
+    Ok(if is_closed && !faces.triangles.is_empty() { faces.to_soup() } else { soup })
 }
 
 /// The median length of an edge, within limits.

@@ -11,9 +11,10 @@ pub struct VoxelDifference {
 
 /// Two sets of voxels are not of one lattice.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("voxels of different lattices cannot be compared: {:?} and {:?}", self.lattices[0], self.lattices[1])]
+#[error("voxels of different lattices cannot be compared: {first:?} and {second:?}")]
 pub struct DifferentLattices {
-    pub lattices: Box<[Lattice; 2]>,
+    pub first: Box<Lattice>,
+    pub second: Box<Lattice>,
 }
 
 impl VoxelDifference {
@@ -39,7 +40,7 @@ pub fn difference(
 ) -> Result<VoxelDifference, DifferentLattices> {
     let lattice = *first.lattice();
     if lattice != *second.lattice() {
-        return Err(DifferentLattices { lattices: Box::new([lattice, *second.lattice()]) });
+        return Err(DifferentLattices { first: Box::new(lattice), second: Box::new(*second.lattice()) });
     }
     let [nx, ny, nz] = lattice.counts;
     let planes = map_tasks(nz, |k| {

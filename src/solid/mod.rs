@@ -1,4 +1,5 @@
-//! Solids from a field: voxels, each by itself or in bricks; signed distances.
+//! Solids from a field: voxels, each by itself or in bricks; signed distances; combinations of two.
+mod boolean;
 mod continuation;
 mod difference;
 mod distance;
@@ -6,6 +7,7 @@ mod voxel_surface;
 mod voxels;
 
 pub use crate::data::{Brick, VoxelBricks, VoxelRows, Voxels};
+pub use boolean::{BooleanConfig, BooleanError, BooleanMesh, BooleanOp, boolean};
 pub use difference::{DifferentLattices, VoxelDifference, difference};
 pub use distance::{DistanceConfig, DistanceError, DistanceSign, SignedClosest, SignedDistance, Slab};
 pub use voxels::{

@@ -291,7 +291,7 @@ impl Handle {
     }
 
     /// What has a winding field; estimates the areas of a cloud the first time.
-    fn shape(&mut self, job: &Job) -> Result<Shape, Failure> {
+    pub(super) fn shape(&mut self, job: &Job) -> Result<Shape, Failure> {
         match &mut self.source {
             Source::Soup(soup) => Ok(Shape::Soup(soup.clone())),
             Source::Cloud { oriented: Some(cloud), .. } => Ok(Shape::Cloud(cloud.clone())),

@@ -1,6 +1,7 @@
 //! The core as JavaScript calls it: convert, call, convert. Nothing here knows geometry.
 //!
 //! What is exported is the interface between the WebAssembly and the package's own TypeScript, which users see.
+mod boolean;
 mod checking;
 mod convert;
 mod distance;
@@ -20,6 +21,7 @@ mod results;
 mod saving;
 mod voxels;
 
+pub use boolean::Operand;
 pub use handle::Handle;
 pub use job::Job;
 #[cfg(target_feature = "atomics")]

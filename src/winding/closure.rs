@@ -86,7 +86,9 @@ impl Closure {
         closure
     }
 
-    fn set_cycles(&mut self, cycles: Vec<Vec<Vec3>>) {
+    fn set_cycles(&mut self, mut cycles: Vec<Vec<Vec3>>) {
+        // They may lie where many more did, which were not worth closing.
+        cycles.shrink_to_fit();
         cycles.iter().for_each(|cycle| cap(cycle, 0, cycle.len() - 1, &mut self.caps));
         self.cycles = cycles;
     }
