@@ -9,12 +9,17 @@ import type { Limits, State, Timed } from '../state.ts';
 import { defectList } from './defects.ts';
 import { enableWhenUsable, reveal } from './usable.ts';
 
-const RATINGS: Record<CheckReport['verdict']['rating'], string> = {
-  clean: 'good',
-  printsAsSeen: 'good',
-  doubtful: 'caution',
-  noSolid: 'alarm',
+const RATINGS: Record<CheckReport['verdict']['rating'], { readonly headline: string; readonly colour: string }> = {
+  clean: { headline: 'Clean: prints as it is.', colour: 'good' },
+  printsAsSeen: { headline: 'Prints as seen.', colour: 'good' },
+  doubtful: { headline: 'Doubtful: it may not print as it is meant.', colour: 'caution' },
+  noSolid: { headline: 'No solid: there is nothing to print.', colour: 'alarm' },
 };
+
+/** The verdict without its reasons. */
+export function headline({ verdict }: CheckReport): string {
+  return RATINGS[verdict.rating].headline;
+}
 
 /** What is wrong with the model: the verdict, the list of defects, and figures. */
 export function checkPanel(page: Page): void {
@@ -56,9 +61,9 @@ function showReport(report: Timed<CheckReport> | undefined): void {
   byId('turn-row').hidden = !report || report.value.flippedFaces.count + report.value.inconsistentEdges.count === 0;
   setFacts(byId('check-facts'), report ? factsOf(report) : []);
   if (!report) return;
-  const { rating, text, reasons } = report.value.verdict;
-  byId('verdict').dataset.rating = RATINGS[rating];
-  byId('verdict-text').textContent = sentence(text);
+  const { rating, reasons } = report.value.verdict;
+  byId('verdict').dataset.rating = RATINGS[rating].colour;
+  byId('verdict-text').textContent = headline(report.value);
   setList(byId('verdict-reasons'), reasons.map((reason) => sentence(reason.text)));
 }
 
