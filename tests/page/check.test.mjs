@@ -118,7 +118,7 @@ describe('the check', () => {
     withBox({}, async (page) => {
       assert.equal(await page.locator('[data-defect=thin]').count(), 0);
       await page.fill('#check-thickness', '25');
-      await page.click('#check:enabled');
+      await page.press('#check-thickness', 'Enter');
       await page.waitForSelector('[data-defect=thin]');
       assert.match(await figureOf(page, 'thin'), /^\d+ faces, from 20 mm$/);
       await page.fill('#check-thickness', '-1');

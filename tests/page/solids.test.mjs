@@ -55,7 +55,7 @@ describe('signed distances', () => {
       await page.waitForSelector('#distance-legend:not([hidden])');
       assert.ok(!(await page.isChecked('#heat')), 'one colour at a time');
       await page.waitForSelector('#legend', { state: 'hidden' });
-      assert.match(await page.textContent('#distance-title'), /^distance in mm, a line each \d+(\.\d+)? mm$/);
+      assert.match(await page.textContent('#distance-title'), /^a line every \d+(\.\d+)? mm$/);
       const ticks = await page.locator('#distance-ticks span').allTextContents();
       assert.ok(ticks.includes('0') && ticks.some((tick) => tick.startsWith('−')) && ticks.some((tick) => tick.startsWith('+')), ticks.join(' '));
       assert.match(await page.getAttribute('#plan-svg .isoline.zero', 'd'), /^M.*L/);
@@ -229,5 +229,20 @@ describe('ways of making voxels', () => {
         assert.equal(name, `box-voxels.${format}`);
         assert.equal(bytes.subarray(0, 4).toString('latin1'), start);
       }
+    }));
+});
+
+describe('a field', () => {
+  test('is saved, and opened again with its model', () =>
+    withModel(boxStl([0, 0, 0], [40, 30, 20], { without: SIDES.top }), async (page) => {
+      const area = await number(page, 'layer-facts', 'Area');
+      const { name, bytes } = await saved(page, '#field-save');
+      assert.equal(name, 'box.field');
+      await dropFile(page, name, bytes);
+      await page.waitForFunction(() => document.querySelector('#sample option:checked').textContent === 'box.field');
+      await settled(page);
+      assert.equal(await fact(page, 'facts', 'Triangles'), '10');
+      assert.equal(await number(page, 'layer-facts', 'Area'), area);
+      assert.ok(await page.isHidden('#unit-field'), 'its numbers are millimetres');
     }));
 });

@@ -18,6 +18,18 @@ export function setFacts(list: HTMLElement, facts: readonly (readonly [name: str
   );
 }
 
+/** Fills a list with sentences; without any it is not shown. */
+export function setList(list: HTMLElement, sentences: readonly string[]): void {
+  list.hidden = sentences.length === 0;
+  list.replaceChildren(
+    ...sentences.map((text) => {
+      const item = document.createElement('li');
+      item.textContent = text;
+      return item;
+    }),
+  );
+}
+
 /** Shows how far along its track a slider stands (Chromium has no part for it). */
 export function paintSlider(slider: HTMLInputElement): void {
   const [min, max] = [Number(slider.min), Number(slider.max)];

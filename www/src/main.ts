@@ -10,7 +10,7 @@ import { checkPanel } from './panels/check.ts';
 import { combinePanel } from './panels/combine.ts';
 import { distanceLegend } from './panels/distance-legend.ts';
 import { dock } from './panels/dock.ts';
-import { enginePanel } from './panels/engine.ts';
+import { enginePanel, fieldButton } from './panels/engine.ts';
 import { folds } from './panels/folds.ts';
 import { jobControls, showJob } from './panels/job.ts';
 import { layerPanel } from './panels/layer.ts';
@@ -75,6 +75,7 @@ async function startEngine(): Promise<void> {
     offsetPanel(page);
     combinePanel(page);
     printPanel(page);
+    fieldButton(page);
     jobControls(store, page.jobs);
     followPlane(page);
     followModel(page);

@@ -1,5 +1,5 @@
 /** What is made of a model, and of two. */
-import type { CheckReport, Mesh, RepairReport, Soup } from 'fast-winding';
+import type { CheckReport, Mesh, RepairReport, Soup, Warning } from 'fast-winding';
 
 export type SurfaceMesh = Mesh;
 
@@ -32,6 +32,7 @@ export interface Combined {
   readonly triangles: Triangles;
   /** The operand of each triangle: 0 the model, 1 the second one. */
   readonly operands: Uint8Array;
+  readonly warnings: readonly Warning[];
 }
 
 /** Cubic millimetres that a closed surface encloses. */

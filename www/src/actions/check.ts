@@ -1,6 +1,7 @@
 import type { CallOptions, CheckReport, Soup } from 'fast-winding';
 import type { Page } from '../page.ts';
 import { isAborted } from '../problem.ts';
+import { initialState } from '../state.ts';
 import type { Model, Timed } from '../state.ts';
 import { attempt } from './attempt.ts';
 import { fail } from './fail.ts';
@@ -69,7 +70,7 @@ export async function turnFaces(page: Page): Promise<void> {
     await shape.orient(options);
     const model = await modelOf(shape, name, readMilliseconds, options);
     page.source = await sourceOf(shape, page.source?.name ?? name);
-    store.set({ ...forgotten(store.state), model });
+    store.set({ ...forgotten(store.state), model, visible: initialState().visible });
     store.set({ report: await checked(page, shape, options) });
   });
 }

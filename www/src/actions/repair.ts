@@ -13,7 +13,9 @@ export async function repairModel(page: Page, how: Pick<RepairOptions, 'method' 
   await attempt(page, 'Repair', 'The model could not be repaired', async (options) => {
     if (shape.kind === 'soup' && !store.state.report) store.set({ report: await checked(page, shape, options) });
     const before = store.state.report?.value;
-    const made = await timed(() => (shape.kind === 'soup' ? shape.repair({ ...how, ...options }) : shape.repair({ ...how, method: 'remesh', ...options })));
+    // Checked here, by the limits of the page.
+    const wanted = { ...how, check: false, ...options };
+    const made = await timed(() => (shape.kind === 'soup' ? shape.repair(wanted) : shape.repair({ ...wanted, method: 'remesh' })));
     const { soup, report } = made.value;
     try {
       const after = (await checked(page, soup, options)).value;

@@ -26,6 +26,12 @@ export async function saveVoxels(page: Page, voxels: Voxels, format: 'vox' | 'nr
   await told(page, async () => download(await page.engine.exportVoxels(voxels, format), `${nameOf(page)}-voxels.${format}`, 'application/octet-stream'));
 }
 
+/** The model with its field, which need not be built again when it is opened. */
+export async function saveField(page: Page): Promise<void> {
+  const shape = page.store.state.model?.shape;
+  if (shape) await told(page, async () => download(await shape.save(), `${nameOf(page)}.field`, 'application/octet-stream'));
+}
+
 /** What the check found, every list as far as it goes. */
 export function saveReport(page: Page): void {
   const report = page.store.state.report?.value;

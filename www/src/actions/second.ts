@@ -3,12 +3,12 @@ import type { Page, Source } from '../page.ts';
 import { centreOf, firstPlacement, matrixOf } from '../placement.ts';
 import { PRIMITIVES } from '../primitives.ts';
 import type { PrimitiveName } from '../primitives.ts';
+import { sentence } from '../problem.ts';
 import { diagonal } from '../state.ts';
 import { attempt } from './attempt.ts';
 import { fileSource } from './open.ts';
 import { load } from './load.ts';
 import { only } from './only.ts';
-import { sourceOf } from './source.ts';
 import { timed } from './timed.ts';
 
 /** Parts of the model's diagonal that a simple shape is large. */
@@ -25,10 +25,15 @@ export async function makeSecond(page: Page, name: PrimitiveName): Promise<void>
   const { positions, indices } = PRIMITIVES[name].make();
   const [size, centre] = [SIZE * diagonal(bounds) || 1, centreOf(bounds)];
   const placed = positions.map((value, i) => size * value + centre[i % 3]);
-  const soup = await page.engine.Soup.from({ positions: placed, indices });
-  const source = await sourceOf(soup, name);
-  soup.free();
-  await takeSecond(page, source);
+  const read = async (): Promise<Uint8Array> => {
+    const soup = await page.engine.Soup.from({ positions: placed, indices });
+    try {
+      return await soup.export('ply');
+    } finally {
+      soup.free();
+    }
+  };
+  await takeSecond(page, { name, unit: 'millimeter', read });
 }
 
 async function takeSecond(page: Page, source: Source): Promise<void> {
@@ -67,11 +72,15 @@ export async function combine(page: Page, operation: BooleanOperation): Promise<
   await attempt(page, 'Combining', 'The models could not be combined', async (options: Required<CallOptions>) => {
     const transform = matrixOf(placement, second.bounds);
     const made = await timed(() => model.shape.boolean(operation, second.shape, { transform, ...options }));
-    const { soup, operands } = made.value;
+    const { soup, operands, warnings } = made.value;
+    if (!soup) {
+      const detail = warnings.map(({ message }) => sentence(message)).join(' ');
+      return store.set({ problem: { title: 'Nothing is left of the models', detail } });
+    }
     try {
-      const triangles = await soup.geometry();
+      const value = { soup, triangles: await soup.geometry(), operands, warnings };
       store.state.combined?.value.soup.free();
-      store.set({ combined: { value: { soup, triangles, operands }, milliseconds: made.milliseconds }, visible: only(page, 'combined') });
+      store.set({ combined: { value, milliseconds: made.milliseconds }, visible: only(page, 'combined') });
     } catch (error) {
       soup.free();
       throw error;

@@ -1,7 +1,7 @@
 import type { CheckReport } from 'fast-winding';
 import { checkModel, turnFaces } from '../actions/check.ts';
 import { saveReport } from '../actions/save.ts';
-import { byId, setFacts } from '../dom.ts';
+import { byId, setFacts, setList } from '../dom.ts';
 import { count, length, milliseconds, plural, significant, volume } from '../format.ts';
 import type { Page } from '../page.ts';
 import { sentence } from '../problem.ts';
@@ -9,12 +9,17 @@ import type { Limits, State, Timed } from '../state.ts';
 import { defectList } from './defects.ts';
 import { enableWhenUsable, reveal } from './usable.ts';
 
-const RATINGS: Record<CheckReport['verdict']['rating'], string> = {
-  clean: 'good',
-  printsAsSeen: 'good',
-  doubtful: 'caution',
-  noSolid: 'alarm',
+const RATINGS: Record<CheckReport['verdict']['rating'], { readonly headline: string; readonly colour: string }> = {
+  clean: { headline: 'Clean: prints as it is.', colour: 'good' },
+  printsAsSeen: { headline: 'Prints as seen.', colour: 'good' },
+  doubtful: { headline: 'Doubtful: it may not print as it is meant.', colour: 'caution' },
+  noSolid: { headline: 'No solid: there is nothing to print.', colour: 'alarm' },
 };
+
+/** The verdict without its reasons. */
+export function headline({ verdict }: CheckReport): string {
+  return RATINGS[verdict.rating].headline;
+}
 
 /** What is wrong with the model: the verdict, the list of defects, and figures. */
 export function checkPanel(page: Page): void {
@@ -34,13 +39,16 @@ export function checkPanel(page: Page): void {
   store.on(['report'], ({ report }) => showReport(report));
 }
 
-/** A number that the check goes by; another one makes the report old. */
-function limit({ store }: Page, id: string, name: keyof Limits): void {
+/** A number that the check goes by; with another one the model is checked again. */
+function limit(page: Page, id: string, name: keyof Limits): void {
+  const { store } = page;
   const input = byId<HTMLInputElement>(id);
   input.addEventListener('change', () => {
     const value = input.valueAsNumber;
-    if (value >= 0 && value <= (name === 'overhangAngle' ? 90 : Infinity)) store.set({ limits: { ...store.state.limits, [name]: value } });
-    else input.value = String(store.state.limits[name]);
+    const isUsable = value >= 0 && value <= (name === 'overhangAngle' ? 90 : 1e6);
+    if (!isUsable) return void (input.value = String(store.state.limits[name]));
+    store.set({ limits: { ...store.state.limits, [name]: value } });
+    if (store.state.report) void checkModel(page);
   });
   store.on(['limits'], ({ limits }) => {
     input.value = String(limits[name]);
@@ -53,16 +61,10 @@ function showReport(report: Timed<CheckReport> | undefined): void {
   byId('turn-row').hidden = !report || report.value.flippedFaces.count + report.value.inconsistentEdges.count === 0;
   setFacts(byId('check-facts'), report ? factsOf(report) : []);
   if (!report) return;
-  const { rating, text, reasons } = report.value.verdict;
-  byId('verdict').dataset.rating = RATINGS[rating];
-  byId('verdict-text').textContent = sentence(text);
-  byId('verdict-reasons').replaceChildren(
-    ...reasons.map((reason) => {
-      const item = document.createElement('li');
-      item.textContent = sentence(reason.text);
-      return item;
-    }),
-  );
+  const { rating, reasons } = report.value.verdict;
+  byId('verdict').dataset.rating = RATINGS[rating].colour;
+  byId('verdict-text').textContent = headline(report.value);
+  setList(byId('verdict-reasons'), reasons.map((reason) => sentence(reason.text)));
 }
 
 function factsOf({ value, milliseconds: time }: Timed<CheckReport>): [string, string][] {

@@ -2,9 +2,10 @@ import type { BooleanOperation } from 'fast-winding';
 import { adoptSoup } from '../actions/adopt.ts';
 import { saveSoup } from '../actions/save.ts';
 import { combine, makeSecond, openSecond, removeSecond } from '../actions/second.ts';
-import { byId, setFacts } from '../dom.ts';
+import { byId, setFacts, setList } from '../dom.ts';
 import { count, milliseconds, plural, significant, volume } from '../format.ts';
 import type { Page } from '../page.ts';
+import { sentence } from '../problem.ts';
 import { PRIMITIVES } from '../primitives.ts';
 import type { PrimitiveName } from '../primitives.ts';
 import { areaOf, volumeOf } from '../results.ts';
@@ -45,6 +46,7 @@ export function combinePanel(page: Page): void {
   store.on(['combined'], ({ combined }) => {
     byId('combine-result').hidden = !combined;
     setFacts(byId('combine-facts'), combined ? factsOf(combined) : []);
+    setList(byId('combine-warnings'), (combined?.value.warnings ?? []).map(({ message }) => sentence(message)));
     if (combined) reveal('combine-result');
   });
 }

@@ -15,7 +15,7 @@ export function distanceLegend(store: Store<State>): void {
     if (!distances) return;
     const scale = scaleOf(distances.value);
     paintScale(byId<HTMLCanvasElement>('distance-bar'), scale, (value) => distanceColour(value, scale));
-    byId('distance-title').textContent = `distance in mm, a line each ${significant(scale.step)} mm`;
+    byId('distance-title').textContent = `a line every ${significant(scale.step)} mm`;
     const place = (value: number): number => (value - scale.low) / (scale.high - scale.low || 1);
     // 0 first, then outward from it, those that have room.
     const ticks: number[] = [];

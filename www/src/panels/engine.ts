@@ -1,9 +1,12 @@
 import type { Info } from 'fast-winding';
+import { saveField } from '../actions/save.ts';
 import { byId, setFacts } from '../dom.ts';
 import { plural } from '../format.ts';
+import type { Page } from '../page.ts';
 import { sentence } from '../problem.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
+import { enableWhenUsable } from './usable.ts';
 
 /** How the engine runs: threads, or why there is only one. */
 export function enginePanel(store: Store<State>): void {
@@ -19,6 +22,13 @@ export function enginePanel(store: Store<State>): void {
       ['Version', info.version],
     ]);
   });
+}
+
+/** Saves the field that the engine has built, for the next time. */
+export function fieldButton(page: Page): void {
+  const button = byId<HTMLButtonElement>('field-save');
+  enableWhenUsable(page, button);
+  button.addEventListener('click', () => void saveField(page));
 }
 
 function threadsOf({ threads, simd }: Info): string {

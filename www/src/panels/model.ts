@@ -1,7 +1,7 @@
 import { SAMPLES } from '../../samples/catalogue.ts';
 import { fileSource, open, reopen, sampleSource } from '../actions/open.ts';
 import { openSecond } from '../actions/second.ts';
-import { byId, setFacts } from '../dom.ts';
+import { byId, setFacts, setList } from '../dom.ts';
 import { acceptDrops } from '../drop.ts';
 import { bytes, count, milliseconds, significant } from '../format.ts';
 import type { Page, Unit } from '../page.ts';
@@ -24,15 +24,7 @@ export function showModelFacts(store: Store<State>): void {
   store.on(['model'], ({ model }) => {
     if (!model) return;
     setFacts(byId('facts'), factsOf(model));
-    const warnings = byId('warnings');
-    warnings.hidden = model.warnings.length === 0;
-    warnings.replaceChildren(
-      ...model.warnings.map(({ message }) => {
-        const item = document.createElement('li');
-        item.textContent = sentence(message);
-        return item;
-      }),
-    );
+    setList(byId('warnings'), model.warnings.map(({ message }) => sentence(message)));
     byId('orient-block').hidden = model.oriented;
   });
 }
@@ -63,7 +55,7 @@ export function modelControls(page: Page): void {
   unit.addEventListener('change', () => void reopen(page, unit.value as Unit));
   page.store.on(['model', 'job'], ({ model, job }) => {
     if (!model || job) return;
-    byId('unit-field').hidden = ['3mf', 'arrays'].includes(model.shape.format);
+    byId('unit-field').hidden = ['3mf', 'arrays', 'field'].includes(model.shape.format);
     unit.value = page.source?.unit ?? 'millimeter';
   });
 

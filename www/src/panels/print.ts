@@ -1,6 +1,6 @@
 import { loadProfile, preparePrint } from '../actions/print.ts';
 import { saveGCode, saveLayer, saveLayers, saveProfile } from '../actions/save.ts';
-import { byId, setFacts } from '../dom.ts';
+import { byId, setFacts, setList } from '../dom.ts';
 import { bytes, count, duration, length, mass, milliseconds, significant } from '../format.ts';
 import type { Page } from '../page.ts';
 import { sizeOf } from '../print.ts';
@@ -63,15 +63,7 @@ function isTiny({ recipe, model }: State): boolean {
 
 function showPrint(print: Timed<Print> | undefined): void {
   for (const id of ['gcode-download', 'slices-download']) byId<HTMLButtonElement>(id).disabled = !print;
-  const warnings = print?.value.warnings ?? [];
-  byId('print-warnings').hidden = warnings.length === 0;
-  byId('print-warnings').replaceChildren(
-    ...warnings.map(({ message }) => {
-      const item = document.createElement('li');
-      item.textContent = sentence(message);
-      return item;
-    }),
-  );
+  setList(byId('print-warnings'), (print?.value.warnings ?? []).map(({ message }) => sentence(message)));
   setFacts(byId('print-facts'), print ? factsOf(print) : []);
   if (print) reveal('print-facts');
 }

@@ -5,9 +5,9 @@ import { saveSoup } from '../actions/save.ts';
 import { byId, setFacts } from '../dom.ts';
 import { count, milliseconds, significant, volume } from '../format.ts';
 import type { Page } from '../page.ts';
-import { sentence } from '../problem.ts';
 import type { Repair } from '../results.ts';
 import type { Timed } from '../state.ts';
+import { headline } from './check.ts';
 import { saver } from './saver.ts';
 import { slider } from './slider.ts';
 import { enableWhenUsable, reveal } from './usable.ts';
@@ -59,7 +59,7 @@ export function repairPanel(page: Page): void {
   store.on(['repair'], ({ repair }) => {
     byId('repair-result').hidden = !repair;
     if (!repair) return;
-    byId('repair-caption').textContent = sentence(repair.value.after.verdict.text);
+    byId('repair-caption').textContent = headline(repair.value.after);
     byId('repair-rows').replaceChildren(...rowsOf(repair.value).map(row));
     setFacts(byId('repair-facts'), factsOf(repair));
     reveal('repair-facts');

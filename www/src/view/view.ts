@@ -114,7 +114,8 @@ export class View {
   #showHalf(isMade: boolean): void {
     const { visible } = this.#store.state;
     const made = madeOf(this.#store.state);
-    for (const item of ITEMS) this.#items[item].group.visible = isMade ? item === made : BESIDE.includes(item) && visible[item];
+    const isBeside = (item: Item): boolean => BESIDE.includes(item) && (visible[item] || (item === 'second' && made === 'combined'));
+    for (const item of ITEMS) this.#items[item].group.visible = isMade ? item === made : isBeside(item);
     this.#items.model.group.visible = !isMade;
     this.#pane.group.visible = this.#heat.group.visible = false;
   }
