@@ -31,7 +31,7 @@ pub fn span(points: &[Vec3], beside: &[Vec3]) -> Vec<[u32; 3]> {
 
 type Part = (Vec<u32>, Vec<Vec3>);
 
-/// Cuts a polygon along the chord that is shortest for the part it cuts off.
+/// Cuts a polygon along the chord that is shortest for the part it cuts off, of those that leave both ends inward if there are any.
 fn halves(points: &[Vec3], polygon: &[u32], beside: &[Vec3]) -> [Part; 2] {
     let count = polygon.len();
     let at = |k: usize| points[polygon[k] as usize];
@@ -39,21 +39,53 @@ fn halves(points: &[Vec3], polygon: &[u32], beside: &[Vec3]) -> [Part; 2] {
     (0..count).for_each(|k| along.push(along[k] + at(k).distance(at((k + 1) % count))));
     let least = ((LEAST_PART * count as f64) as usize).max(2);
     let step = count.div_ceil(CUTS);
-    let mut best = (f64::INFINITY, 0, count / 2);
+    let corners: Vec<Corner> = (0..count)
+        .map(|k| {
+            let before = (k + count - 1) % count;
+            let normal = beside[before] + beside[k];
+            Corner { next: at((k + 1) % count) - at(k), previous: at(before) - at(k), normal }
+        })
+        .collect();
+    let mut best = (true, f64::INFINITY, 0, count / 2);
     for i in (0..count).step_by(step) {
         for j in (i + least..count.min(i + count - least + 1)).step_by(step) {
-            let arc = along[j] - along[i];
-            let ratio = at(i).distance(at(j)) / arc.min(along[count] - arc);
-            if ratio < best.0 {
-                best = (ratio, i, j);
+            let (arc, chord) = (along[j] - along[i], at(j) - at(i));
+            let ratio = chord.length() / arc.min(along[count] - arc);
+            if best.0 || ratio < best.1 {
+                let leaves = !(corners[i].holds(chord) && corners[j].holds(-chord));
+                if (leaves, ratio) < (best.0, best.1) {
+                    best = (leaves, ratio, i, j);
+                }
             }
         }
     }
-    let (_, i, j) = best;
+    let (.., i, j) = best;
     let inner = (polygon[i..=j].to_vec(), [&beside[i..j], &[Vec3::ZERO]].concat());
     let outer =
         ([&polygon[j..], &polygon[..=i]].concat(), [&beside[j..], &beside[..i], &[Vec3::ZERO]].concat());
     [inner, outer]
+}
+
+/// A corner of a polygon: the ways to its neighbours, and the normal of what lies around.
+struct Corner {
+    next: Vec3,
+    previous: Vec3,
+    normal: Vec3,
+}
+
+impl Corner {
+    /// Whether a way leads between both edges, to the polygon's inside as the normal has it; true where there is none.
+    fn holds(&self, way: Vec3) -> bool {
+        let turn = |a: Vec3, b: Vec3| a.cross(b).dot(self.normal);
+        let (from_next, to_previous) = (turn(self.next, way), turn(way, self.previous));
+        if self.normal == Vec3::ZERO {
+            true
+        } else if turn(self.next, self.previous) > 0.0 {
+            from_next > 0.0 && to_previous > 0.0
+        } else {
+            from_next > 0.0 || to_previous > 0.0
+        }
+    }
 }
 
 /// The best triangulation of each stretch of a polygon, and where its triangle on the chord has its top.
