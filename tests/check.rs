@@ -131,6 +131,11 @@ fn flipped_faces_are_named() {
     assert_eq!(whole.verdict.rating, Rating::Doubtful);
     assert!(whole.volume < 0.0 && whole.shells.list[0].volume.unwrap() < 0.0);
     assert_near(-whole.field.unwrap().inverted_volume, whole.volume, 0.02);
+    let open = checked(without(&flipped(&sphere(10)), |t| t < 30));
+    assert_eq!(
+        (open.flipped_faces.count, open.inverted_shells, open.verdict.rating),
+        (770, 1, Rating::Doubtful)
+    );
     // A twentieth of the faces of a sphere that is inside out as well: the others are to be turned.
     let both = checked(turned(&flipped(&sphere(10)), |t| t % 20 == 7));
     assert_eq!(both.flipped_faces.count, 760);

@@ -66,8 +66,8 @@ export interface Shell {
   /** How many closed shells a closed one is in. */
   depth?: number;
   /**
-   * What it is in the solid, by most of its area: it bounds it; bounds it with its faces turned inward; lies inside; is closed and
-   * inside out; or bounds nothing.
+   * What it is in the solid, by most of its area: it bounds it; bounds it with its faces turned inward; lies inside; is inside
+   * out; or bounds nothing.
    */
   role: 'boundary' | 'reversed' | 'internal' | 'inverted' | 'outside';
 }
@@ -122,7 +122,7 @@ export interface CheckReport {
   closedShells: number;
   /** Closed shells in others. */
   nestedShells: number;
-  /** Closed shells that are inside out. */
+  /** Shells that are inside out. */
   invertedShells: number;
   /** Pairs of faces whose insides have a point in common. */
   selfIntersections?: IndexPairs;

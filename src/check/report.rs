@@ -43,7 +43,7 @@ pub struct CheckReport {
     pub closed_shells: usize,
     /// Closed shells in others, as cavities or as solids in the solid.
     pub nested_shells: usize,
-    /// Closed shells that are inside out.
+    /// Shells that are inside out.
     pub inverted_shells: usize,
     /// Pairs of faces whose insides have a point in common.
     pub self_intersections: Option<List<[u32; 2]>>,
@@ -146,9 +146,9 @@ pub enum ShellRole {
     Reversed,
     /// Inside of the solid.
     Internal,
-    /// Closed and inside out: both of its sides are outside.
+    /// Inside out: both of its sides are outside, and w is negative on that to which its faces are turned.
     Inverted,
-    /// Both of its sides are outside, and it is open.
+    /// Both of its sides are outside, and it encloses nothing.
     Outside,
 }
 

@@ -13,8 +13,10 @@ pub struct Shells {
     pub is_flipped: Vec<bool>,
 }
 
-/// The share of the area with which a closed shell has to be outside to be inverted.
+/// The share of its area with which a shell has to be outside to bound nothing.
 const MOST: f64 = 0.5;
+/// The mean of w on both sides of a shell, below which it is inside out: it is −1/2 there, and 0 at a sheet.
+const INSIDE_OUT: f64 = -0.25;
 
 pub fn shells(
     soup: &TriangleSoup,
@@ -29,6 +31,7 @@ pub fn shells(
     // Area that runs with the first face and against it; area of each kind of sides, of those with the first and of the others.
     let mut with_first = vec![[0.0; 2]; count];
     let mut kinds = vec![[[0.0; 4]; 2]; count];
+    let mut means = vec![[0.0; 2]; count];
     let mut volumes = vec![0.0; count];
     let anchor = soup.bounds().center();
     let members = || (0..soup.len()).filter(|t| topology.is_kept(*t));
@@ -41,6 +44,7 @@ pub fn shells(
         with_first[number][turned] += faces[t].area;
         let volume = volume_of(soup.corners(t), anchor);
         volumes[number] += if turned == 0 { volume } else { -volume };
+        means[number][turned] += sides.mean(t);
         kinds[number][turned].iter_mut().zip(sides.areas(t)).for_each(|(sum, area)| *sum += area);
         for side in 3 * t as u32..3 * t as u32 + 3 {
             shell.is_closed &= topology.joined[side as usize] != Topology::NONE;
@@ -55,7 +59,7 @@ pub fn shells(
         // Collapsed to a face and its other side, it encloses nothing.
         shell.volume = is_closed.then_some(if most == 0 { volumes[number] } else { -volumes[number] });
         shell.genus = is_closed.then(|| (2 - shell.euler_number).max(0) as u64 / 2);
-        shell.role = role(kinds[number][most], shell.is_closed);
+        shell.role = role(kinds[number][most], means[number][most]);
         if shell.is_orientable {
             let is_inverted = shell.role == ShellRole::Inverted;
             flips[number][most] = is_inverted;
@@ -84,11 +88,11 @@ fn empty(is_orientable: bool) -> Shell {
     }
 }
 
-/// By the area for which w ≥ 1/2 on neither side, on that of the normal, on the other, on both.
-fn role([outside, reversed, bounding, internal]: [f64; 4], is_closed: bool) -> ShellRole {
+/// By the area for which w ≥ 1/2 on neither side, on that of the normal, on the other, on both; and the area times the mean of w.
+fn role([outside, reversed, bounding, internal]: [f64; 4], mean: f64) -> ShellRole {
     let total = outside + reversed + bounding + internal;
     if outside > MOST * total {
-        return if is_closed { ShellRole::Inverted } else { ShellRole::Outside };
+        return if mean < INSIDE_OUT * total { ShellRole::Inverted } else { ShellRole::Outside };
     }
     let most = reversed.max(bounding).max(internal);
     match most {

@@ -140,20 +140,28 @@ fn jumps_at(sample: &Sample, soup: &TriangleSoup, faces: &[Face], bvh: &Bvh, rea
 pub struct FaceSides {
     /// Area for which `inside` is [false, false], [true, false], [false, true], [true, true].
     areas: Vec<[f64; 4]>,
+    /// Sum of area times the mean of w on both sides.
+    means: Vec<f64>,
 }
 
 impl FaceSides {
     pub fn new(samples: &[Sample], faces: usize) -> FaceSides {
-        let mut areas = vec![[0.0; 4]; faces];
+        let (mut areas, mut means) = (vec![[0.0; 4]; faces], vec![0.0; faces]);
         for sample in samples {
             let [plus, minus] = sample.inside();
             areas[sample.face as usize][usize::from(plus) + 2 * usize::from(minus)] += sample.area;
+            means[sample.face as usize] += 0.5 * (sample.w[0] + sample.w[1]) * sample.area;
         }
-        FaceSides { areas }
+        FaceSides { areas, means }
     }
 
     pub fn areas(&self, face: usize) -> [f64; 4] {
         self.areas[face]
+    }
+
+    /// The area of a face times the mean of w on both of its sides.
+    pub fn mean(&self, face: usize) -> f64 {
+        self.means[face]
     }
 
     fn is_all(&self, face: usize, kind: usize) -> bool {

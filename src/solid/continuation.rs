@@ -11,11 +11,12 @@ use crate::winding::{Scratch, WindingField};
 /// Samples that are asked for together: as many as their points may take some megabytes for.
 const AT_ONCE: usize = 1 << 17;
 
-/// What is known of the voxels of a brick.
+/// What is known of the voxels of a brick, and which of them were asked for.
 #[derive(Clone, Copy, Default)]
 struct Known {
     known: BrickBits,
     inside: BrickBits,
+    wanted: BrickBits,
 }
 
 /// What is known of the voxels of a lattice, in the bricks where something is.
@@ -37,7 +38,8 @@ impl States<'_> {
         }
     }
 
-    fn set(&mut self, sample: [usize; 3], inside: bool) {
+    /// The brick of a voxel, which is made if there is none.
+    fn brick(&mut self, sample: [usize; 3]) -> &mut Known {
         let at = sample.map(|s| s / BRICK_SIDE);
         let mut number = self.directory.get(at);
         if number == OUTSIDE {
@@ -45,29 +47,57 @@ impl States<'_> {
             self.bricks.push(Known::default());
             self.directory.set(at, number);
         }
+        &mut self.bricks[number as usize]
+    }
+
+    fn set(&mut self, sample: [usize; 3], inside: bool) {
         let [x, y, z] = sample.map(|s| s % BRICK_SIDE);
-        let brick = &mut self.bricks[number as usize];
+        let brick = self.brick(sample);
         brick.known[z] |= 1 << (8 * y + x);
         brick.inside[z] |= u64::from(inside) << (8 * y + x);
     }
 
+    /// Adds a voxel to a wave, unless it was in one before.
+    fn want(&mut self, sample: [usize; 3], wave: &mut Vec<usize>) {
+        let [x, y, z] = sample.map(|s| s % BRICK_SIDE);
+        let wanted = &mut self.brick(sample).wanted[z];
+        let bit = 1 << (8 * y + x);
+        if *wanted & bit == 0 {
+            *wanted |= bit;
+            wave.push(self.lattice.index(sample));
+        }
+    }
+
+    /// The voxels in which some of a shape is.
+    fn seeds(&mut self, shape: &Shape) -> Vec<usize> {
+        let lattice = *self.lattice;
+        let (mut wave, mut last) = (Vec::new(), [-1; 3]);
+        let corner = lattice.origin - 0.5 * lattice.spacing;
+        for_each_cell_of_shape(shape, corner, lattice.spacing, &mut |cell| {
+            let sample = cell.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
+            if cell != last && (0..3).all(|axis| sample[axis] < lattice.counts[axis]) {
+                self.want(sample, &mut wave);
+            }
+            last = cell;
+        });
+        wave
+    }
+
     /// Unknown neighbours of both sides of every change of state that the last wave has found.
-    fn beyond(&self, wave: &[usize]) -> Vec<usize> {
-        let lattice = self.lattice;
+    fn beyond(&mut self, wave: &[usize]) -> Vec<usize> {
+        let lattice = *self.lattice;
         let mut next = Vec::new();
         for &index in wave {
             let sample = lattice.sample(index);
             let state = self.get(sample);
-            for other in neighbours(lattice, sample) {
+            for other in neighbours(&lattice, sample) {
                 let found = self.get(other);
                 if found.is_some() && found != state {
-                    let around = neighbours(lattice, sample).chain(neighbours(lattice, other));
-                    next.extend(around.filter(|s| self.get(*s).is_none()).map(|s| lattice.index(s)));
+                    let around = neighbours(&lattice, sample).chain(neighbours(&lattice, other));
+                    around.for_each(|s| self.want(s, &mut next));
                 }
             }
         }
-        next.sort_unstable();
-        next.dedup();
         next
     }
 
@@ -86,7 +116,7 @@ impl States<'_> {
                     }
                 }
                 number => {
-                    let Known { known, mut inside } = self.bricks[number as usize];
+                    let Known { known, mut inside, .. } = self.bricks[number as usize];
                     let unknown = mask_of_brick(self.lattice, brick);
                     for z in 0..BRICK_SIDE {
                         let mut unknown = unknown[z] & !known[z];
@@ -119,7 +149,7 @@ pub(super) fn along_the_level_set(
     if lattice.is_empty() {
         return Ok(VoxelBricks::outside(lattice)?);
     }
-    let mut wave = seeds(field.shape(), lattice)?;
+    let mut wave = states.seeds(field.shape());
     // How far it has to go is not known.
     let undetermined = |_: f64, _: &str| monitor.report(0.0, "voxels").is_ok();
     undetermined.report(0.0, "voxels")?;
@@ -135,39 +165,6 @@ pub(super) fn along_the_level_set(
     let bricks = states.filled(first)?;
     monitor.report(1.0, "voxels")?;
     Ok(bricks)
-}
-
-/// The samples in whose cells some of a shape is, each once. They are collected in bricks: a list of what each triangle and point has
-/// would be many times as long.
-fn seeds(shape: &Shape, lattice: &Lattice) -> Result<Vec<usize>, OutOfMemory> {
-    let mut found = States { lattice, directory: Directory::new(lattice)?, bricks: Vec::new() };
-    let mut last = [-1; 3];
-    let corner = lattice.origin - 0.5 * lattice.spacing;
-    for_each_cell_of_shape(shape, corner, lattice.spacing, &mut |cell| {
-        let sample = cell.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
-        if cell != last && (0..3).all(|axis| sample[axis] < lattice.counts[axis]) {
-            found.set(sample, true);
-        }
-        last = cell;
-    });
-    let [nx, ny, nz] = found.directory.bricks();
-    let mut all = Vec::new();
-    for brick in (0..nx * ny * nz).map(|b| [b % nx, b / nx % ny, b / (nx * ny)]) {
-        let number = found.directory.get(brick);
-        if matches!(number, OUTSIDE | INSIDE) {
-            continue;
-        }
-        for (z, plane) in found.bricks[number as usize].known.into_iter().enumerate() {
-            let mut plane = plane;
-            while plane != 0 {
-                let place = plane.trailing_zeros() as usize;
-                plane &= plane - 1;
-                let [x, y, k] = brick.map(|b| b * BRICK_SIDE);
-                all.push(lattice.index([x + place % 8, y + place / 8, k + z]));
-            }
-        }
-    }
-    Ok(all)
 }
 
 /// The samples next to one along the three axes.

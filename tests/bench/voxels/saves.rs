@@ -8,7 +8,7 @@ use fast_winding::winding::WindingField;
 pub fn print(models: &[String]) {
     println!("{} threads; milliseconds.\n", rayon::current_num_threads());
     println!(
-        "| model | elements | build | save | load | loaded / built | MB saved | of it the shape | voxels at 64³ | scattered points ready |"
+        "| model | elements | build | save | load | loaded / built | MB saved | of it the shape | voxels at 64³ | points: prepared | once saved | MB more |"
     );
     println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
     for model in models {
