@@ -13,7 +13,7 @@ export const MORE = 'fast_winding_more.wasm';
 const IN_MORE = new RegExp(
   [
     String.raw`fast_winding\[[0-9a-f]+\]::(${[
-      'arrangement|check|distance|estimate|orient|polygon|print|repair|surface',
+      String.raw`arrangement|check(?!::(boundary|components)\b)|distance|estimate|orient|polygon|print|repair|surface`,
       'data::(bricks|topology)|bvh::(disc|first_hit|narrow|overlaps)|io::write::(dxf|json|nrrd|svg|threemf|vox)|io::threemf',
       'levelset::(cubes|cube_cases|bricks|blur|roots|sampling|squares)|math::(closest|ray|triangles_meet)',
       'solid::(boolean|continuation|difference|distance|voxel_surface)|treecode::mutual|winding::stab',

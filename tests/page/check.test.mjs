@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { SIDES, boxStl, sphereXyz } from './models.mjs';
-import { dropFile, fact, number, openPage, picture, saved, settled } from './page.mjs';
+import { dropFile, fact, number, openPage, outside, picture, saved, settled } from './page.mjs';
 import { served } from './site.mjs';
 
 const site = served();
@@ -10,8 +10,8 @@ const site = served();
 const [LOW, HIGH] = [[0, 0, 0], [40, 30, 20]];
 
 /** A page that shows a box of so many triangles, with its report, which small models get by themselves. */
-async function withBox(faults, work) {
-  const page = await openPage(site.browser, site.server.url);
+async function withBox(faults, work, size) {
+  const page = await openPage(site.browser, site.server.url, size);
   try {
     const bytes = boxStl(LOW, HIGH, faults);
     await dropFile(page, 'box.stl', bytes);
@@ -185,4 +185,18 @@ describe('a repair', () => {
       const cubicCentimetres = parseFloat((await figures(page, 'Volume'))[1]);
       assert.ok(cubicCentimetres > 15 && cubicCentimetres < 25, `${cubicCentimetres} cm³, w = ½ bulges or dents in the opening`);
     }));
+
+  test('fits 390 px, its figures with it', () =>
+    withBox(
+      { without: SIDES.top },
+      async (page) => {
+        await page.click('[data-defect=holes]');
+        await repair(page);
+        await page.selectOption('#second-shape', 'cube');
+        await page.waitForSelector('#second:not([hidden])');
+        assert.deepEqual(await outside(page), []);
+        assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth), 0);
+      },
+      { width: 390, height: 844 },
+    ));
 });

@@ -104,6 +104,16 @@ export async function picture(page) {
   return (await page.locator('#canvas').screenshot()).toString('base64');
 }
 
+/** Names of controls and figures that reach beyond the sides of the page. */
+export function outside(page) {
+  return page.evaluate(() =>
+    [...document.querySelectorAll('button, input:not([hidden]), select, dd, td, output')]
+      .filter((element) => element.getClientRects().length > 0)
+      .filter((element) => element.getBoundingClientRect().right > innerWidth || element.getBoundingClientRect().left < 0)
+      .map((element) => element.id || element.textContent),
+  );
+}
+
 /** What a click on a button saves. */
 export async function saved(page, selector) {
   const [file] = await Promise.all([page.waitForEvent('download'), page.click(selector)]);

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { describe, test } from 'node:test';
 import { boxObj, boxStl, sphereXyz } from './models.mjs';
-import { contourAt, drawnPixels, dropFile, fact, number, openPage, picture, sampleHeight, settled, slide } from './page.mjs';
+import { contourAt, drawnPixels, dropFile, fact, number, openPage, outside, picture, sampleHeight, settled, slide } from './page.mjs';
 import { serve } from './serve.mjs';
 import { served } from './site.mjs';
 
@@ -413,13 +413,7 @@ describe('the layout', () => {
           client: document.documentElement.clientWidth,
         }));
         assert.equal(scroll, client);
-        const outside = await page.evaluate(() =>
-          [...document.querySelectorAll('button, input:not([hidden]), select, dd')]
-            .filter((element) => element.getClientRects().length > 0)
-            .filter((element) => element.getBoundingClientRect().right > innerWidth || element.getBoundingClientRect().left < 0)
-            .map((element) => element.id || element.textContent),
-        );
-        assert.deepEqual(outside, []);
+        assert.deepEqual(await outside(page), []);
       }));
   }
 

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { boxStl } from './models.mjs';
-import { dropFile, fact, openPage, picture, saved as savedBytes, settled, slide } from './page.mjs';
+import { dropFile, fact, openPage, outside, picture, saved as savedBytes, settled, slide } from './page.mjs';
 import { served } from './site.mjs';
 
 const site = served();
@@ -188,13 +188,7 @@ describe('a print', () => {
     withBox(
       async (page) => {
         await prepare(page);
-        const outside = await page.evaluate(() =>
-          [...document.querySelectorAll('button, input:not([hidden]), select, dd, output')]
-            .filter((element) => element.getClientRects().length > 0)
-            .filter((element) => element.getBoundingClientRect().right > innerWidth || element.getBoundingClientRect().left < 0)
-            .map((element) => element.id || element.textContent),
-        );
-        assert.deepEqual(outside, []);
+        assert.deepEqual(await outside(page), []);
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth), 0);
         const canvas = await page.locator('#canvas').boundingBox();
         assert.ok(canvas.height > 200, `the view is ${canvas.height} px high`);

@@ -175,6 +175,18 @@ describe('a second model', () => {
       assert.deepEqual(await Promise.all(['#second-centre-x', '#second-angles-y', '#second-scale'].map((id) => page.inputValue(id))), ['20', '0', '1']);
     }));
 
+  test('beside the model has nothing in common with it, which is told', () =>
+    withSecond(async (page) => {
+      await page.fill('#second-centre-x', '100');
+      await page.press('#second-centre-x', 'Enter');
+      await page.selectOption('#operation', 'intersection');
+      await page.click('#combine:enabled');
+      await page.waitForSelector('#problem:not([hidden])');
+      assert.equal(await page.textContent('#problem-title'), 'Nothing is left of the models');
+      assert.match(await page.textContent('#problem-detail'), /^[A-Z].*\.$/);
+      assert.ok(await page.isHidden('#combine-result'));
+    }));
+
   test('is a simple shape that handles move, while the camera stays', () =>
     withModel(MODEL, async (page) => {
       await page.selectOption('#second-shape', 'sphere');
