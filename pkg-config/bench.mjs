@@ -1,7 +1,7 @@
 // Runs the benches: `native` (criterion), `wasm` (Node, beside native), `scale` (up to ten million triangles), `browser`
-// (Chromium, beside three-mesh-bvh), `layers` (beside manifold-3d and trimesh), `peers` (beside other implementations) and `figures` (those of the paper, as tables and
-// as plots in docs/figures), or
-// those named. What begins with -- and all after it goes to each of them; for the figures it is `--models` and files:
+// (Chromium, beside three-mesh-bvh), `layers` (beside manifold-3d and trimesh), `booleans` (beside manifold-3d), `repairs` (taken by
+// manifold-3d or not), `peers` (beside other implementations) and `figures` (those of the paper, as tables and as plots in
+// docs/figures), or those named. What begins with -- and all after it goes to each of them; for the figures it is `--models` and files:
 //     npm --prefix www run bench peers -- --rounds 5
 //     npm --prefix www run bench figures -- --models part.stl scan.ply
 import { mkdtempSync, rmSync } from 'node:fs';
@@ -33,6 +33,7 @@ const BENCHES = {
     await assemble();
     await run('node', [script('booleans.mjs'), ...options], { cwd: root });
   },
+  repairs: () => run('node', [script('repairs.mjs')], { cwd: root }),
   async scale() {
     await assemble();
     await run('node', [script('scale.mjs')], { cwd: root });

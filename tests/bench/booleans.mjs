@@ -1,10 +1,9 @@
 // Booleans of large closed meshes beside manifold-3d (npm), both in WebAssembly on one thread, the making of their inputs included:
 // times, and volumes that have to agree. Run by `npm --prefix www run bench booleans [-- --quick]`.
-import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync } from 'node:fs';
-import { homedir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { init } from '../../pkg/dist/node/sync.js';
+import { manifold } from './manifold.mjs';
 import { markdown, median, milliseconds, modelsFolder } from './measuring.mjs';
 import { model } from './models.mjs';
 
@@ -15,20 +14,6 @@ const GOALS = { time: 2, volume: 1e-6 };
 /** manifold-3d's names for ours. */
 const OPERATIONS = { union: 'add', intersection: 'intersect', difference: 'subtract' };
 
-const cache = join(process.env.XDG_CACHE_HOME || join(homedir(), '.cache'), 'fast-winding');
-const PEER = { name: 'manifold-3d', version: '3.5.4', folder: join(cache, 'layer-peers') };
-
-/** The peer is no dependency of the project: it lies in the user's cache. */
-async function manifold() {
-  const folder = join(PEER.folder, 'node_modules', PEER.name);
-  if (!existsSync(folder)) {
-    mkdirSync(PEER.folder, { recursive: true });
-    execFileSync('npm', ['install', '--silent', '--no-save', '--prefix', PEER.folder, `${PEER.name}@${PEER.version}`]);
-  }
-  const peer = await (await import(join(folder, 'manifold.js'))).default();
-  peer.setup();
-  return peer;
-}
 
 /** A binary PLY of doubles, as models.mjs writes it; coordinates that both engines can have, in single precision. */
 function read(path) {

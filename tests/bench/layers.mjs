@@ -1,13 +1,13 @@
 // Layers beside manifold-3d (npm) and trimesh (PyPI): times on models that are closed, areas of each layer, and what each makes of
 // models that are broken. Run by `npm --prefix www run bench layers [-- --quick]`.
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync } from 'node:fs';
+import { existsSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
-import { homedir } from 'node:os';
 import { join } from 'node:path';
 import { init } from '../../pkg/dist/node/index.js';
 import { init as initSync } from '../../pkg/dist/node/sync.js';
 import { model } from './models.mjs';
+import { manifold, peersFolder } from './manifold.mjs';
 import { markdown, median, milliseconds, modelsFolder, repeat } from './measuring.mjs';
 
 const isQuick = process.argv.includes('--quick');
@@ -15,20 +15,6 @@ const LAYERS = isQuick ? 10 : 100;
 /** What is to be reached beside manifold-3d: parsing to layers, layers alone; of areas; of the second thread; open to closed. */
 const GOALS = { whole: 4, alone: 1, area: 1e-6, gain: 1.7, open: 3 };
 
-const cache = join(process.env.XDG_CACHE_HOME || join(homedir(), '.cache'), 'fast-winding');
-const PEER = { name: 'manifold-3d', version: '3.5.4', folder: join(cache, 'layer-peers') };
-
-/** The peer is no dependency of the project: it lies in the user's cache. */
-async function manifold() {
-  const folder = join(PEER.folder, 'node_modules', PEER.name);
-  if (!existsSync(folder)) {
-    mkdirSync(PEER.folder, { recursive: true });
-    execFileSync('npm', ['install', '--silent', '--no-save', '--prefix', PEER.folder, `${PEER.name}@${PEER.version}`]);
-  }
-  const peer = await (await import(join(folder, 'manifold.js'))).default();
-  peer.setup();
-  return peer;
-}
 
 /** What manifold-3d makes of a mesh: its layers' areas, and how long it took; or why it refuses it. */
 function slicedByManifold({ Manifold, Mesh }, { positions, indices, heights, merge }) {
@@ -224,7 +210,7 @@ print(f"{total:.2f}" + (f", {broken} of 3 not closed" if broken else ""))
 
 /** Total area by trimesh's sections, in an environment of its own; or that there is none. */
 function byTrimesh(positions, indices, heights) {
-  const environment = join(PEER.folder, 'python');
+  const environment = join(peersFolder, 'python');
   const python = join(environment, 'bin/python');
   try {
     if (!existsSync(join(environment, 'bin/trimesh-ready'))) {

@@ -1,28 +1,16 @@
 // Repaired meshes handed to manifold-3d (npm): whether its constructor takes them, and whether it finds the same volume.
-// Run by `node tests/bench/repairs.mjs [CASE]`, where CASE is the beginning of a name; builds and runs tests/bench/repair.rs.
+// Run by `npm --prefix www run bench repairs`, or `node tests/bench/repairs.mjs [CASE]`, where CASE is the beginning of a name; builds and runs tests/bench/repair.rs.
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync } from 'node:fs';
-import { homedir, tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { manifold } from './manifold.mjs';
 import { markdown } from './measuring.mjs';
 
-const cache = join(process.env.XDG_CACHE_HOME || join(homedir(), '.cache'), 'fast-winding');
-const PEER = { name: 'manifold-3d', version: '3.5.4', folder: join(cache, 'layer-peers') };
 const root = fileURLToPath(new URL('../..', import.meta.url));
 /** How far the volumes may be apart. */
 const GOAL = 1e-6;
-
-async function manifold() {
-  const folder = join(PEER.folder, 'node_modules', PEER.name);
-  if (!existsSync(folder)) {
-    mkdirSync(PEER.folder, { recursive: true });
-    execFileSync('npm', ['install', '--silent', '--no-save', '--prefix', PEER.folder, `${PEER.name}@${PEER.version}`]);
-  }
-  const peer = await (await import(join(folder, 'manifold.js'))).default();
-  peer.setup();
-  return peer;
-}
 
 const read = (path, Type) => {
   const bytes = readFileSync(path);
