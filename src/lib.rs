@@ -3,8 +3,8 @@
 //!
 //! Bytes become a [`TriangleSoup`] or a [`PointCloud`] ([`io::read`]); a cloud is completed with normals and areas
 //! ([`estimate`]) to an [`OrientedCloud`]; either gets a [`WindingField`], built once; the features ([`solid`],
-//! [`slice`](mod@slice), [`surface`], [`check`](mod@check)) ask that field. Results are plain data;
-//! layers go on to a printer ([`print`](mod@print)).
+//! [`slice`](mod@slice), [`surface`], [`check`](mod@check)) ask that field. Results are plain data; broken soups are made whole
+//! ([`repair`]), layers go on to a printer ([`print`](mod@print)).
 //!
 //! Right-handed frame, z up, millimetres; normals point outward; the winding number is 1 inside. The method is that of
 //! Barill et al. 2018, *Fast Winding Numbers for Soups and Clouds*.

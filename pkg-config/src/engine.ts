@@ -43,7 +43,7 @@ export class Engine {
     return this.glue.version();
   }
 
-  /** Whether a call estimates normals or areas, or makes surfaces or layers, which takes the part of the WebAssembly that comes later. */
+  /** Whether a call takes the part of the WebAssembly that comes later. */
   needsMore({ method, handle, args }: Request): boolean {
     if (method === 'parse' && (args[1] === 'field' || beginsSo(args[0]))) return true;
     if (method === 'voxelize') {

@@ -1,4 +1,4 @@
-//! What estimates normals and areas of clouds, and what makes surfaces and layers, is split off this WebAssembly after it is compiled, and
+//! All but fields, voxels and plain files is split off this WebAssembly after it is compiled, and
 //! loaded by the package when it is first needed (`pkg-config/tools/split.mjs`).
 use wasm_bindgen::prelude::*;
 

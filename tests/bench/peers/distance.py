@@ -35,8 +35,12 @@ def main():
     arguments.add_argument("--peer", nargs=4, help="for one process: a peer's name, model, places, output")
     options = arguments.parse_args()
     environment.enter()
+    environment.add_distance_peers()
     if options.peer:
         return measure_peer(*options.peer, options.threads)
+    names = sorted({*options.models.split(","), "bumpy70k"})
+    maker = environment.ROOT / "tests" / "bench" / "models.mjs"
+    subprocess.run(["node", maker, environment.MODELS, *names], check=True, stdout=subprocess.DEVNULL)
     program = environment.measuring_program("distance")
     print(f"\n{options.threads} thread(s), medians of {options.rounds} round(s), ns for each place (theirs / ours)\n")
     print("| model | places | ours | Open3D | pysdf | largest difference of lengths |\n|---|---|---|---|---|---|")

@@ -16,6 +16,8 @@ PEERS = [
     "point-cloud-utils==0.34.0",
     "open3d==0.20.0",
 ]
+# Signed distances; made from its sources, which need Eigen.
+DISTANCE_PEERS = ["pysdf==0.1.9"]
 # Readers of the formats that layers are written in.
 READERS = ["numpy==2.4.6", "ezdxf==1.4.5", "lib3mf==2.5.0", "lxml==6.1.3", "networkx==3.6.1", "svgpathtools==1.8.0", "trimesh==5.2.0"]
 # Open3D's wheel loads these libraries of the system.
@@ -47,6 +49,19 @@ def install_libraries(python):
         sudo = [] if os.getuid() == 0 else ["sudo", "-n"]
         for words in (["update"], ["install", "-y", "--no-install-recommends", *DEBIAN_PACKAGES]):
             subprocess.run([*sudo, "apt-get", *words], stdout=subprocess.DEVNULL, check=False)
+
+
+def add_distance_peers():
+    """Puts the peers of distances, which have no wheels, into the environment that this program runs in."""
+    if subprocess.run([sys.executable, "-c", "import pysdf"], capture_output=True).returncode == 0:
+        return
+    if shutil.which("apt-get"):
+        print("installing the Debian package libeigen3-dev", file=sys.stderr)
+        sudo = [] if os.getuid() == 0 else ["sudo", "-n"]
+        words = ["install", "-y", "--no-install-recommends", "libeigen3-dev"]
+        subprocess.run([*sudo, "apt-get", *words], stdout=subprocess.DEVNULL, check=False)
+    includes = {**os.environ, "CPLUS_INCLUDE_PATH": "/usr/include/eigen3"}
+    subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", *DISTANCE_PEERS], env=includes, check=True)
 
 
 def measuring_program(name="measure"):
