@@ -1,7 +1,7 @@
 //! The field of a soup on a lattice: crossings slab by slab, the fraction where it matters.
 use super::boundary::Need;
+use super::config::FieldError;
 use super::curtain::LANES;
-use super::field::FieldError;
 use super::many::Many;
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{FractionBy, SoupField, TIE};

@@ -1,5 +1,5 @@
 //! Soups with loose components at many points: crossings for what is closed, and the dual tree for the rest.
-use super::field::FieldError;
+use super::config::FieldError;
 use super::many::{InsideTest, Many};
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{SoupField, TIE};

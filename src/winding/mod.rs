@@ -16,6 +16,7 @@ mod chain;
 mod closure;
 mod cloud_field;
 mod columns;
+mod config;
 mod curtain;
 mod dipoles;
 mod error_model;
@@ -45,9 +46,10 @@ pub use bounded::{
     bounded, bounded_gradient_of_cloud, bounded_slope, bounded_winding_in_plane, bounded_winding_of_cloud,
 };
 pub(crate) use chain::{components, cycles, net_edges, weld};
+pub use config::{Accuracy, FieldConfig, FieldError, FieldReport};
 pub use dipoles::Dipoles;
 pub use exact::{winding, winding_of_cloud, winding_of_soup};
-pub use field::{Accuracy, FieldConfig, FieldError, FieldReport, WindingField};
+pub use field::WindingField;
 pub use gradient::{edge_gradient, winding_gradient, winding_gradient_of_cloud, winding_gradient_of_soup};
 pub use hierarchy::ExactHierarchy;
 pub use parity::{RayParity, Rays};
