@@ -129,6 +129,8 @@ pub fn boolean(
         warnings.push(Warning::new(WarningKind::EmptyResult, 1));
     }
     mesh.warnings = warnings;
+    monitor.begin(0.0, 1.0);
+    monitor.report(1.0, "operands")?;
     Ok(mesh)
 }
 
