@@ -28,7 +28,7 @@ interface MeshArrays {
 /** A mesh as a shape, in the model's own frame. */
 export function soupOf(fw: FastWinding, { positions, indices, origin }: MeshArrays): Promise<Soup> {
   const placed = Float64Array.from(positions, (x, i) => x + origin[i % 3]!);
-  return fw.Soup.from({ positions: placed, indices }, { transfer: true });
+  return fw.Soup.from({ positions: placed, indices });
 }
 
 /** Writes a mesh, if one is wanted. */

@@ -3,12 +3,12 @@ import { command } from '../command.js';
 import { toJson, area, figure, length, plural, sizeOf, volume } from '../words.js';
 import { soupFrom } from '../shapes.js';
 
-/** What a program may do with the list of defects: as much as a person would look at. */
+/** As many defects of a kind as a person would look at. */
 const LIMIT = 100;
 
 function rowsOf(report: CheckReport): [string, string][] {
   const { field, thickness, bed } = report;
-  const rows: [string, string][] = report.verdict.reasons.map(({ kind, text }) => [kind, text]);
+  const rows: [string, string][] = report.verdict.reasons.map(({ text }) => ['reason', text]);
   rows.push(['triangles', `${figure(report.triangles)}, ${plural(report.shells.count, 'shell')}, ${report.closedShells} closed`]);
   rows.push(['size', sizeOf(report.bounds)], ['area', area(report.area)]);
   if (field) rows.push(['solid', volume(field.solidVolume)]);

@@ -7,7 +7,7 @@ import { counts, length, plural } from '../words.js';
 
 const OPTIONS = {
   at: { kind: 'text', value: 'FILE', help: 'distances at the points or vertices of this file, as csv; else over a lattice, as nrrd' },
-  sign: { kind: 'choice', choices: ['hard', 'smooth', 'none'], help: 'negative where w ≥ ½ (hard); times 1 − 2 w; or never negative' },
+  sign: { kind: 'choice', choices: ['hard', 'smooth', 'none'], help: 'negative where w ≥ ½ (hard, unless given), times 1 − 2 w (smooth), or never (none)' },
   band: { kind: 'number', value: 'MM', help: 'distances up to this are exact, what is farther has this one' },
   padding: { kind: 'number', value: 'MM', help: 'of the lattice: beyond the bounds on every side' },
   ...CELLS,

@@ -25,7 +25,7 @@ export const repair = command({
   ],
   files: 'each',
   options: {
-    method: { kind: 'choice', choices: ['conserve', 'remesh'], help: 'keep the triangles (conserve), or make the surface anew' },
+    method: { kind: 'choice', choices: ['conserve', 'remesh'], help: 'keep the triangles (conserve, unless given), or make the surface anew (remesh)' },
     ...CELLS,
     sharp: { kind: 'number', value: 'DEG', help: 'of remesh: from which angle edges stay sharp (35), 0 for none' },
     tolerance: { kind: 'number', value: 'MM', help: 'of conserve: open edges no farther apart are stitched' },

@@ -9,7 +9,7 @@ const OPTIONS = {
   layerHeight: { kind: 'number', value: 'MM', help: 'height of a layer (0.2)' },
   firstLayerHeight: { kind: 'number', value: 'MM', help: 'of the first; as the others unless given' },
   adaptive: { kind: 'numbers', value: 'LEAST,MOST,OFF', count: 3, help: 'layers as thick as slopes allow: their heights, and how far steps may stand off' },
-  mode: { kind: 'choice', choices: ['winding', 'even-odd', 'largest'], help: 'what is inside: w ≥ ½ (winding); without overlaps; the largest outline, for a vase' },
+  mode: { kind: 'choice', choices: ['winding', 'even-odd', 'largest'], help: 'what is inside: w ≥ ½ (winding, unless given), what overlaps left out (even-odd), or the largest outline, for a vase (largest)' },
   simplify: { kind: 'number', value: 'MM', help: 'leave out vertices where contours stay this near' },
   tolerance: { kind: 'number', value: 'MM', help: 'of clouds: edge of a cell in the plane' },
   separate: { kind: 'flag', help: 'a file for each layer, SVG: -o is a folder' },

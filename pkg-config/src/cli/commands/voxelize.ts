@@ -13,7 +13,7 @@ export const voxelize = command({
   options: {
     ...CELLS,
     threshold: { kind: 'number', value: 'W', help: 'least winding number inside (0.5)' },
-    method: { kind: 'choice', choices: ['lattice', 'continuation'], help: 'ask every cell (lattice), or follow the surface' },
+    method: { kind: 'choice', choices: ['lattice', 'continuation'], help: 'ask every cell (lattice, unless given), or follow the surface (continuation)' },
     raw: { kind: 'flag', help: 'of nrrd: without compression' },
     solid: { kind: 'flag', help: 'of vox: all voxels inside, not those alone that can be seen' },
   },
