@@ -83,7 +83,7 @@ test('a program ends by itself when it has nothing left to ask', () => {
 });
 
 test('importing the browser’s entries on a server touches neither window nor Worker', () => {
-  const script = ['index.js', 'sync.js'].map((name) => `await import(${JSON.stringify(pathToFileURL(join(home, 'dist', name)).href)});`);
+  const script = ['index.js', 'sync.js', 'three/index.js', 'manifold.js'].map((name) => `await import(${JSON.stringify(pathToFileURL(join(home, 'dist', name)).href)});`);
   const traps = `for (const name of ['window', 'document', 'Worker', 'location', 'navigator', 'fetch', 'crossOriginIsolated'])
     Object.defineProperty(globalThis, name, { get() { throw new Error(name + ' was touched'); } });`;
   writeFileSync(join(folder, 'server.mjs'), `${traps}\n${script.join('\n')}\nconsole.log('imported');`);

@@ -1,14 +1,16 @@
 // The entry for three.js, with three itself: geometries to soups and clouds and back, contours, planes of the field.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { npmTool } from '../../pkg-config/tools/npm.mjs';
 import { www } from '../../pkg-config/tools/paths.mjs';
 import { install } from './install.mjs';
 import { area, box, sphere, volume } from './shapes.mjs';
 
-const { home, load } = install();
+const { folder, home, load } = install();
 const THREE = createRequire(join(www, 'package.json'))('three');
 const { soupArrays, cloudArrays, toGeometry, contourGeometry, planeGeometry, planeTexture } = await load('three/index.js');
 const fw = await (await load('node/sync.js')).init();
@@ -175,6 +177,26 @@ function areaFromAbove(geometry) {
   }
   return sum;
 }
+
+test('types are those of three', () => {
+  mkdirSync(join(folder, 'node_modules/@types'));
+  for (const name of ['three', '@types/three']) symlinkSync(join(www, 'node_modules', name), join(folder, 'node_modules', name));
+  const program = (at) => `
+    import * as THREE from 'three';
+    import { init } from 'fast-winding';
+    import { contourGeometry, planeTexture, soupArrays, toGeometry } from 'fast-winding/three';
+    const soup = await (await init()).Soup.from(soupArrays(new THREE.Mesh(), { world: true, matrix: new THREE.Matrix4() }));
+    export const geometry: THREE.BufferGeometry = toGeometry(THREE, await soup.surface());
+    export const texture: THREE.DataTexture = planeTexture(THREE, await soup.heatMap({ z: 0 }), { colour: (w) => [w, 0, 0] });
+    export const lines = new THREE.LineSegments(contourGeometry(THREE, await soup.slice(), { at: '${at}' }));`;
+  const compile = (at) => {
+    writeFileSync(join(folder, 'program.ts'), program(at));
+    const options = ['--noEmit', '--strict', '--module', 'nodenext', '--target', 'es2022', '--lib', 'es2023,dom,esnext.disposable'];
+    execFileSync('node', [npmTool('typescript', 'tsc'), ...options, '--types', '', 'program.ts'], { cwd: folder, stdio: 'pipe' });
+  };
+  compile('zTop');
+  assert.throws(() => compile('zMiddle'), ({ stdout }) => /zMiddle/.test(String(stdout)));
+});
 
 test('the README’s example runs', async () => {
   const [, example] = readFileSync(join(home, 'README.md'), 'utf8').match(/```js three\n([^]*?)```/);

@@ -15,9 +15,16 @@ export interface Destination {
 const endingOf = (path: string): string => extname(path).slice(1).toLowerCase();
 const stemOf = (file: string): string => (file === '-' ? 'stdin' : basename(file, extname(file)));
 
-function isFolder(path: string): boolean {
-  return /[/\\]$/.test(path) || (statSync(path, { throwIfNoEntry: false })?.isDirectory() ?? false);
+/** What is there already; what cannot be looked at will fail when it is written. */
+function kindAt(path: string): 'folder' | 'file' | 'nothing' {
+  try {
+    return statSync(path).isDirectory() ? 'folder' : 'file';
+  } catch {
+    return 'nothing';
+  }
 }
+
+const isFolder = (path: string): boolean => /[/\\]$/.test(path) || kindAt(path) === 'folder';
 
 /** The format that options ask for, if they do. */
 function formatAsked({ command, values, common }: Plan): string | undefined {
@@ -48,7 +55,7 @@ function verify(plan: Plan, output: string, isMany: boolean, hasParts: boolean):
   if (command.formats.length === 0) throw new UsageError(`${command.name} writes no file`, command.name);
   if (output === '-' && common.json) throw new UsageError('standard output cannot take both --json and the result', command.name);
   if (output === '-' && (isMany || hasParts)) throw new UsageError('standard output can take one result only', command.name);
-  if (output !== '-' && (isMany || hasParts) && statSync(output, { throwIfNoEntry: false })?.isDirectory() === false) {
+  if (output !== '-' && (isMany || hasParts) && kindAt(output) === 'file') {
     throw new UsageError(`${output} is a file: many results need a folder`, command.name);
   }
 }

@@ -16,6 +16,7 @@ export class FileError extends Error {
 }
 
 const REASONS: Record<string, string> = {
+  EEXIST: 'a file is where a folder is needed',
   ENOENT: 'there is no such file or folder',
   EISDIR: 'it is a folder',
   ENOTDIR: 'part of its path is no folder',
