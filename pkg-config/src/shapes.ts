@@ -18,10 +18,10 @@ export interface Caller {
   dispose(): void;
 }
 
-/** Options without those that the client itself heeds, and without those that are `undefined`, which is as not given. */
+/** Options without those that the client itself heeds. */
 function forEngine(options: object | undefined): unknown {
   const { signal, onProgress, onNormals, transfer, ...rest } = (options ?? {}) as Record<string, unknown>;
-  return Object.fromEntries(Object.entries(rest).filter(([, value]) => value !== undefined));
+  return rest;
 }
 
 type View = Uint8Array | Uint32Array | Float32Array | Float64Array;

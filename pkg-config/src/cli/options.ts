@@ -32,6 +32,11 @@ type ValueOf<O> = O extends { kind: 'flag' } ? boolean
 /** What was given: nothing for options that were not. */
 export type Values<O extends Options> = { [K in keyof O]?: ValueOf<O[K]> };
 
+/** Options for the package, without those that were not given. */
+export function given<T extends object>(options: T): T {
+  return Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined)) as T;
+}
+
 /** The option's name on the command line, without its dashes. */
 export const flagOf = (key: string): string => key.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 

@@ -1,10 +1,17 @@
-import type { CheckReport } from '../../api.js';
+import type { CheckOptions, CheckReport } from '../../api.js';
 import { command } from '../command.js';
 import { toJson, area, figure, length, plural, sizeOf, volume } from '../words.js';
 import { soupFrom } from '../shapes.js';
 
 /** As many defects of a kind as a person would look at. */
 const LIMIT = 100;
+
+const HEADLINES: Record<CheckReport['verdict']['rating'], string> = {
+  clean: 'clean: prints as it is',
+  printsAsSeen: 'prints as seen',
+  doubtful: 'doubtful',
+  noSolid: 'holds no solid',
+};
 
 function rowsOf(report: CheckReport): [string, string][] {
   const { field, thickness, bed } = report;
@@ -38,10 +45,10 @@ export const check = command({
   examples: ['check part.stl', 'check --json --bed 220,220,250 models/*.stl', 'check --strict part.3mf && echo ready'],
   async run(task, { strict, limit = LIMIT, ...options }) {
     const soup = soupFrom(task, 'check');
-    const report = await soup.check({ ...options, bed: options.bed as [number, number, number] | undefined, limit, ...task.call });
+    const report = await soup.check({ ...(options as CheckOptions), limit, ...task.call });
     if (task.format) await task.save(new TextEncoder().encode(`${toJson(report)}\n`));
-    const { rating, text } = report.verdict;
+    const { rating } = report.verdict;
     const passes = rating === 'clean' || (rating === 'printsAsSeen' && !strict);
-    return { report: { prints: passes, ...report }, headline: text, rows: rowsOf(report), passes };
+    return { report: { prints: passes, ...report }, headline: HEADLINES[rating], rows: rowsOf(report), passes };
   },
 });

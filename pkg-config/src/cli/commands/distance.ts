@@ -65,7 +65,7 @@ export const distance = command({
   examples: ['distance --at scan.xyz part.stl -o deviation.csv', 'distance --resolution 128 part.stl -o part.nrrd'],
   async run(task, { at, ...options }: DistanceValues) {
     const shape: Shape = task.shapes[0]!;
-    if (at !== undefined) return atPoints(task, shape, at, { sign: options.sign, band: options.band, ...task.call });
+    if (at !== undefined) return atPoints(task, shape, at, { ...options, ...task.call });
     const lattice = await shape.signedDistance({ ...options, ...task.call });
     if (task.format) await task.save(nrrdOf(lattice));
     const { values, ...report } = lattice;

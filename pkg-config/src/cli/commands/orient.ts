@@ -1,6 +1,7 @@
 import type { Cloud, FaceOrientOptions, OrientOptions, Soup } from '../../api.js';
 import { WindingError } from '../../error.js';
 import { type Outcome, type Task, command } from '../command.js';
+import { given } from '../options.js';
 import { plural } from '../words.js';
 
 const OF_SOUPS = ['parity', 'visibility', 'consistency'] as const;
@@ -51,8 +52,8 @@ export const orient = command({
   async run(task, { method, rays, noiseLevel }) {
     const shape = task.shapes[0]!;
     const outcome = await (shape.kind === 'soup'
-      ? orientSoup(shape, { method: only(method, OF_SOUPS, 'triangles'), rays, ...task.call })
-      : orientCloud(shape, { method: only(method, OF_CLOUDS, 'points'), noiseLevel, ...task.call }));
+      ? orientSoup(shape, given({ method: only(method, OF_SOUPS, 'triangles'), rays, ...task.call }))
+      : orientCloud(shape, given({ method: only(method, OF_CLOUDS, 'points'), noiseLevel, ...task.call })));
     await save(task, shape);
     return outcome;
   },

@@ -1,6 +1,6 @@
 import type { Layer, SliceOptions } from '../../api.js';
 import { type Outcome, type Task, command } from '../command.js';
-import type { Values } from '../options.js';
+import { type Values, given } from '../options.js';
 import { UsageError } from '../usage.js';
 import { figure, length, plural, volume } from '../words.js';
 import { OF_GCODE, gcodeOf } from './gcode.js';
@@ -58,7 +58,7 @@ function sliceOptions(values: SliceValues, task: Task): SliceOptions {
   const { layerHeight, firstLayerHeight, mode, simplify, tolerance } = values;
   const given = values.adaptive;
   const adaptive = given && { least: given[0]!, most: given[1]!, deviation: given[2]! };
-  return { layerHeight, firstLayerHeight, mode, simplify, tolerance, adaptive, ...task.call };
+  return given({ layerHeight, firstLayerHeight, mode, simplify, tolerance, adaptive, ...task.call });
 }
 
 /** A file for each layer: only some layers are in memory at a time. */

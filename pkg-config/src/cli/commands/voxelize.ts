@@ -1,5 +1,6 @@
 import { command } from '../command.js';
 import { CELLS, MESH_FORMATS, saveMesh, verifyCells } from '../meshes.js';
+import { given } from '../options.js';
 import { counts, figure, length, volume } from '../words.js';
 
 export const voxelize = command({
@@ -24,7 +25,7 @@ export const voxelize = command({
     const voxels = await task.shapes[0]!.voxelBricks({ ...options, ...task.call });
     const { bricks: _, ...report } = voxels;
     if (task.format === 'nrrd' || task.format === 'vox') {
-      await task.save(await task.fw.exportVoxels(voxels, task.format, task.format === 'vox' ? { solid } : { raw }));
+      await task.save(await task.fw.exportVoxels(voxels, task.format, given(task.format === 'vox' ? { solid } : { raw })));
     } else if (task.format) {
       await saveMesh(task, await task.fw.voxelSurface(voxels));
     }
