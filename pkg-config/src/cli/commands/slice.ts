@@ -56,8 +56,8 @@ function areaOf(ring: Float64Array): number {
 
 function sliceOptions(values: SliceValues, task: Task): SliceOptions {
   const { layerHeight, firstLayerHeight, mode, simplify, tolerance } = values;
-  const given = values.adaptive;
-  const adaptive = given && { least: given[0]!, most: given[1]!, deviation: given[2]! };
+  const [least, most, deviation] = values.adaptive ?? [];
+  const adaptive = values.adaptive && { least: least!, most: most!, deviation: deviation! };
   return given({ layerHeight, firstLayerHeight, mode, simplify, tolerance, adaptive, ...task.call });
 }
 
