@@ -12,6 +12,7 @@
 
 pub mod arrangement;
 pub mod bvh;
+pub mod charge;
 pub mod check;
 pub mod data;
 pub mod distance;
