@@ -28,6 +28,7 @@ pub mod repair;
 pub mod slice;
 pub mod solid;
 pub mod surface;
+pub mod texture;
 pub mod treecode;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;
