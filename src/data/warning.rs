@@ -148,7 +148,10 @@ impl fmt::Display for Warning {
             }
             WarningKind::CrossingFaces => write!(f, "pieces of {n} faces cross after rounding"),
             WarningKind::CoarseProxy => {
-                write!(f, "the proxy has too few samples for its offset: {n} along the longest side are needed")
+                write!(
+                    f,
+                    "the proxy has too few samples for its offset: {n} along the longest side are needed"
+                )
             }
             WarningKind::SeveralProxies => {
                 write!(f, "the proxy has {n} components: gaps are wider than two offsets")

@@ -104,8 +104,7 @@ impl Proxy {
             None => needed.min(ProxyConfig::MOST_SAMPLES as f64) as usize,
         };
         // What lies in one place has no size but that of its proxy.
-        let spacing =
-            if longest > offset { longest / samples as f64 } else { offset / SAMPLES_OF_OFFSET };
+        let spacing = if longest > offset { longest / samples as f64 } else { offset / SAMPLES_OF_OFFSET };
         let traced = trace(field, offset, spacing, config.sides, monitor)?;
         let Pieces { mesh, component, components, inner } = keep_outer(traced, monitor)?;
         if mesh.triangles.is_empty() {
