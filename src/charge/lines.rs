@@ -1,7 +1,5 @@
-//! Lines of the field, followed from the surface outward: section 7.6.
-use super::ElectricField;
-use crate::data::{Cancelled, Monitor};
-use crate::math::Vec3;
+use crate::data::Cancelled;
+use crate::math::{Aabb, Vec3};
 
 /// Polylines along the field, kept so that another surface around the soup needs only new intersections (section 12.2).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,32 +49,44 @@ pub enum Integrator {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineConfig {
     pub integrator: Integrator,
-    /// Most steps of a line.
+    /// Steps of a line, if nothing stops it before.
     pub steps: usize,
     /// Length of a step; `None`: such that all steps lead a tenth of the soup's diagonal away.
     pub step: Option<f64>,
+    /// How far the second point of a line, where the field is first asked for, is from the start, along the direction that
+    /// is given; `None`: a tenth of a step.
+    pub start_offset: Option<f64>,
+    /// Steps are shortened, down to 1/16, where the field turns more than this from one to the next, in radians. Lines get as far
+    /// as by as many whole steps, and have more points. `None`: all steps are the same.
+    pub largest_turn: Option<f64>,
+    /// Lines end outside.
+    pub bounds: Option<Aabb>,
 }
 
 impl Default for LineConfig {
     fn default() -> Self {
-        LineConfig { integrator: Integrator::default(), steps: 100, step: None }
+        LineConfig {
+            integrator: Integrator::default(),
+            steps: 100,
+            step: None,
+            start_offset: None,
+            largest_turn: None,
+            bounds: None,
+        }
     }
 }
 
-/// The lines of the field from `starts`, points of the surface, into the half-spaces of `directions` (normals of any length).
-///
-/// # Errors
-/// If and only if `monitor` cancels.
-pub fn trace(
-    field: &ElectricField,
-    starts: &[Vec3],
-    directions: &[Vec3],
-    config: &LineConfig,
-    monitor: &dyn Monitor,
-) -> Result<FieldLines, Cancelled> {
-    let _ = (field, config);
-    monitor.report(0.0, "field lines")?;
-    let mut lines = FieldLines::default();
-    starts.iter().zip(directions).for_each(|(start, direction)| lines.push(&[*start, *start + *direction]));
-    Ok(lines)
+/// Why lines cannot be followed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LineError {
+    #[error("{starts} starts have {directions} directions: there has to be one for each")]
+    Lengths { starts: usize, directions: usize },
+    #[error("start {0} or its direction is not finite")]
+    NonFinite(usize),
+    #[error("{name} is {value}: it has to be finite and greater than 0")]
+    BadLength { name: &'static str, value: f64 },
+    #[error("{points} points are too many: at most 4,294,967,295 can be indexed")]
+    TooManyPoints { points: usize },
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
