@@ -1,7 +1,7 @@
 //! The field lines of a soup, kept so that another proxy needs only new intersections (Schier et al. 2018, section 12.2).
 use super::Starts;
-use crate::charge::{ChargeConfig, ChargeError, ElectricField, FieldLines, LineConfig, trace};
-use crate::data::{Monitor, TriangleSoup, ascending};
+use crate::charge::{ChargeConfig, ChargeError, ElectricField, FieldLines, LineConfig, LineError, trace};
+use crate::data::{Cancelled, Monitor, TriangleSoup, ascending};
 use crate::math::Vec3;
 use std::sync::Arc;
 
@@ -10,6 +10,21 @@ use std::sync::Arc;
 pub struct SoupLinesConfig {
     pub charge: ChargeConfig,
     pub line: LineConfig,
+}
+
+/// Why there are no lines.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SoupLinesError {
+    #[error(transparent)]
+    Charge(#[from] ChargeError),
+    #[error(transparent)]
+    Line(#[from] LineError),
+}
+
+impl From<Cancelled> for SoupLinesError {
+    fn from(cancelled: Cancelled) -> SoupLinesError {
+        SoupLinesError::Line(cancelled.into())
+    }
 }
 
 /// The lines of all corners of a soup.
@@ -29,12 +44,12 @@ impl SoupLines {
     /// Charges the soup and follows the lines of the field from all its corners.
     ///
     /// # Errors
-    /// If and only if no triangle has an area, or the monitor cancels.
+    /// If and only if no triangle has an area, an option is out of range, or the monitor cancels.
     pub fn new(
         soup: &Arc<TriangleSoup>,
         config: &SoupLinesConfig,
         monitor: &dyn Monitor,
-    ) -> Result<SoupLines, ChargeError> {
+    ) -> Result<SoupLines, SoupLinesError> {
         let field = ElectricField::solve(soup.clone(), &config.charge, monitor)?;
         SoupLines::of_field(&field, &config.line, monitor)
     }
@@ -42,12 +57,12 @@ impl SoupLines {
     /// Follows the lines of a field that is there.
     ///
     /// # Errors
-    /// If and only if the monitor cancels.
+    /// If and only if an option is out of range, or the monitor cancels.
     pub fn of_field(
         field: &ElectricField,
         config: &LineConfig,
         monitor: &dyn Monitor,
-    ) -> Result<SoupLines, ChargeError> {
+    ) -> Result<SoupLines, SoupLinesError> {
         let soup = field.soup();
         let starts = Starts::new(soup);
         let lines = trace(field, &starts.points, &starts.normals, config, monitor)?;

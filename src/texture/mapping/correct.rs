@@ -130,7 +130,8 @@ impl<'a> Charts<'a> {
         let face = anchors[0].face;
         let mesh = &self.proxy.mesh;
         let places = mesh.triangles[face as usize].map(|v| mesh.positions[v as usize]);
-        let (normal, own) = (area_vector(places).normalize_or_zero(), area_vector(corners).normalize_or_zero());
+        let (normal, own) =
+            (area_vector(places).normalize_or_zero(), area_vector(corners).normalize_or_zero());
         let Some(rest) = Rest::new(places) else { return self.uv(anchors) };
         let [dx, dy] = rest.jacobian(self.atlas.corners_of(face));
         let x = (places[1] - places[0]).normalize_or_zero();

@@ -94,7 +94,9 @@ fn report(
 ) -> MappingReport {
     let count = |is: &dyn Fn(&Placed) -> bool| placed.iter().filter(|p| is(p)).count();
     let is_weak = |corners: &&[u32; 3]| {
-        corners.iter().any(|s| lines.strength[*s as usize] < MappingReport::WEAK && !anchors.is_lost[*s as usize])
+        corners
+            .iter()
+            .any(|s| lines.strength[*s as usize] < MappingReport::WEAK && !anchors.is_lost[*s as usize])
     };
     let is_torn = |(t, placed): (usize, &Placed)| {
         let ratio = placed.area_ratio(soup.corners(t), atlas.scale);
