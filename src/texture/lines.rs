@@ -1,7 +1,7 @@
 //! The field lines of a soup, kept so that another proxy needs only new intersections (Schier et al. 2018, section 12.2).
 use super::Starts;
 use crate::charge::{ChargeConfig, ChargeError, ElectricField, FieldLines, LineConfig, LineError, trace};
-use crate::data::{Cancelled, Monitor, TriangleSoup, ascending};
+use crate::data::{Cancelled, Monitor, Parts, TriangleSoup, ascending};
 use crate::math::Vec3;
 use std::sync::Arc;
 
@@ -50,7 +50,10 @@ impl SoupLines {
         config: &SoupLinesConfig,
         monitor: &dyn Monitor,
     ) -> Result<SoupLines, SoupLinesError> {
+        let monitor = &Parts::new(monitor);
+        monitor.begin(0.0, 0.4);
         let field = ElectricField::solve(soup.clone(), &config.charge, monitor)?;
+        monitor.begin(0.4, 1.0);
         SoupLines::of_field(&field, &config.line, monitor)
     }
 

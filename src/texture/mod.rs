@@ -14,6 +14,7 @@ mod mapping;
 mod proxy;
 mod refine;
 mod run;
+mod shown;
 mod starts;
 
 pub use anchors::{Anchor, Anchors};

@@ -3,7 +3,7 @@ use super::{
     Anchors, Atlas, AtlasConfig, AtlasError, Distortion, Mapping, MappingReport, Proxy, ProxyConfig,
     ProxyError, Refined, SoupLines, SoupLinesConfig, SoupLinesError, refined,
 };
-use crate::data::{Cancelled, Monitor, TriangleSoup, Warning};
+use crate::data::{Cancelled, Monitor, Parts, TriangleSoup, Warning};
 use crate::winding::{FieldConfig, WindingField};
 use serde::Serialize;
 use std::sync::Arc;
@@ -82,6 +82,8 @@ pub fn texture(
     config: &TextureConfig,
     monitor: &dyn Monitor,
 ) -> Result<Texture, TextureError> {
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.1);
     let (soup, sources, warnings) = match config.refine {
         true => {
             let Refined { soup, sources, warnings } = refined(&soup, monitor)?;
@@ -90,10 +92,14 @@ pub fn texture(
         false => (soup, Vec::new(), Vec::new()),
     };
     let field = WindingField::new(soup.clone(), FieldConfig::default());
+    monitor.begin(0.1, 0.3);
     let proxy = Proxy::new(&field, &config.proxy, monitor)?;
+    monitor.begin(0.3, 0.5);
     let atlas = Atlas::new(&proxy.mesh, &config.atlas, monitor)?;
+    monitor.begin(0.5, 0.95);
     let lines = SoupLines::new(&soup, &reaching(&config.lines, &soup, proxy.offset), monitor)?;
     let anchors = Anchors::new(&lines, &proxy);
+    monitor.begin(0.95, 1.0);
     let mapping = Mapping::new(&soup, &lines, &anchors, &proxy, &atlas, monitor)?;
     Ok(Texture { soup, sources, proxy, atlas, lines, anchors, mapping, warnings })
 }
@@ -126,9 +132,13 @@ impl Texture {
         atlas: &AtlasConfig,
         monitor: &dyn Monitor,
     ) -> Result<Texture, TextureError> {
+        let monitor = &Parts::new(monitor);
+        monitor.begin(0.0, 0.4);
         let field = WindingField::new(self.soup.clone(), FieldConfig::default());
         let proxy = Proxy::new(&field, proxy, monitor)?;
+        monitor.begin(0.4, 0.9);
         let atlas = Atlas::new(&proxy.mesh, atlas, monitor)?;
+        monitor.begin(0.9, 1.0);
         self.with(proxy, atlas, monitor)
     }
 
@@ -137,7 +147,10 @@ impl Texture {
     /// # Errors
     /// If and only if a stage fails or the monitor cancels.
     pub fn with_atlas(&self, atlas: &AtlasConfig, monitor: &dyn Monitor) -> Result<Texture, TextureError> {
+        let monitor = &Parts::new(monitor);
+        monitor.begin(0.0, 0.9);
         let atlas = Atlas::new(&self.proxy.mesh, atlas, monitor)?;
+        monitor.begin(0.9, 1.0);
         self.with(self.proxy.clone(), atlas, monitor)
     }
 

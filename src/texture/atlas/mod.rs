@@ -1,6 +1,7 @@
 //! Atlases: a closed mesh cut into charts that are disks, laid flat without flipped triangles or overlaps, and packed into a square
 //! (Schier et al. 2018, section 6).
 mod charts;
+mod cuts;
 mod faces;
 mod flatten;
 mod overlap;
