@@ -14,11 +14,10 @@ const RMS_SHARE: f64 = 0.25;
 /// A cluster's own potentials count as larger by this share: copies of a triangle would make its matrix singular.
 const SHIFT: f64 = 1e-3;
 
-/// Charges of elements, the steps taken, and the largest deviation of their potentials from 1.
+/// Charges of elements, and the steps taken.
 pub struct Solution {
     pub charges: Vec<f64>,
     pub steps: usize,
-    pub deviation: f64,
 }
 
 /// Charges that give the potential 1 at all barycentres, but for `tolerance`.
@@ -44,7 +43,7 @@ pub fn solve(
         let is_stuck = steps > 0 && deviation > 0.5 * best;
         best = best.min(deviation);
         if deviation <= tolerance || steps >= MOST_STEPS || is_stuck || deviation.is_nan() {
-            return Ok(Solution { charges, steps, deviation });
+            return Ok(Solution { charges, steps });
         }
         let norm = norm(&residual) / (len as f64).sqrt();
         let report = |rms: f64| {

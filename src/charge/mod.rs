@@ -15,6 +15,7 @@ mod lines;
 mod moments;
 mod multipole;
 mod panel;
+mod panel_lanes;
 mod robin_hood;
 mod rule;
 mod sum;

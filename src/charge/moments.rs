@@ -31,6 +31,7 @@ pub struct Moments {
     pub third: [f64; 10],
 }
 
+#[cfg(test)]
 fn pair(i: usize, j: usize) -> usize {
     let wanted = [i.min(j), i.max(j)];
     PAIRS.iter().position(|p| *p == wanted).expect("both are axes")

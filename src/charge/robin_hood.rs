@@ -31,7 +31,7 @@ pub fn solve(
             fresh = worst;
         }
         if worst <= tolerance || steps >= most_steps || lowest == highest || worst.is_nan() {
-            return Ok(Solution { charges, steps, deviation: worst });
+            return Ok(Solution { charges, steps });
         }
         if steps % STEPS_PER_REPORT == 0 {
             let done = libm::log(worst / first) / libm::log((tolerance / first).min(0.5));
@@ -42,7 +42,7 @@ pub fn solve(
         let change =
             (potentials[highest] - potentials[lowest]) / (own - of_lowest[highest] - of_highest[lowest]);
         if !change.is_finite() {
-            return Ok(Solution { charges, steps, deviation: worst });
+            return Ok(Solution { charges, steps });
         }
         charges[highest] -= change;
         charges[lowest] += change;

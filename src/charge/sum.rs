@@ -4,9 +4,14 @@ use super::elements::Elements;
 use super::moments::{Moments, Series};
 use super::multipole::{SUMS, act};
 use super::panel::potential_and_field;
+use super::panel_lanes::Panel;
 use super::walk::{Block, LANES, Lists, Opening, bits};
 use crate::math::{Floats, Registers, Vec3, Work, in_widest_registers};
 use crate::treecode::{Octet, parts};
+use wide::{f32x4, f32x8};
+
+/// Where a block's radius is more than this times an element's longest edge, its 32-bit places are too coarse for that.
+const WIDE: f64 = 64.0;
 
 /// A potential and a field.
 pub type Value = (f64, Vec3);
@@ -51,31 +56,57 @@ impl Charged<'_> {
         values
     }
 
-    /// An element next to some points of groups: exactly at these, by its series at the others.
+    /// An element next to some points of groups, exactly.
     fn add_near(&self, block: &Block, i: usize, groups: u32, values: &mut [Value]) {
-        let center = self.elements.centers[i];
-        let reach = self.opening.near * self.elements.sizes[i];
+        let (corners, center) = (self.elements.corners[i], self.elements.centers[i]);
+        let size = self.elements.sizes[i];
         let density = self.charges[i] / self.elements.areas[i];
-        for k in bits(groups).flat_map(|g| g * LANES..((g + 1) * LANES).min(block.points.len())) {
-            let q = block.points[k];
-            let offset = q - center;
-            let value = &mut values[k];
-            if offset.length_squared() > reach * reach {
-                let [potential, x, y, z] = act_alone(&self.of_elements[i], offset);
-                value.0 += potential;
-                value.1 += Vec3::new(x, y, z);
-            } else {
-                let (potential, field) = potential_and_field(q, self.elements.corners[i]);
-                value.0 += density * potential;
-                value.1 += density * field;
+        let panel = Panel::new(corners, center, size);
+        let from = (center - block.center).to_array().map(|x| f32x8::splat(x as f32));
+        for g in bits(groups) {
+            let own = g * LANES..((g + 1) * LANES).min(block.points.len());
+            let group = &block.groups[g];
+            let is_wide = block.radius > WIDE * size;
+            if is_wide {
+                own.for_each(|k| self.add_alone(block.points[k], i, density, &mut values[k]));
+                continue;
             }
+            let points = [0, 1, 2].map(|axis| f32x8::from(group.places[axis].0) - from[axis]);
+            let (potential, field, low) = panel.at(&points);
+            let (potential, field) = (potential.to_array(), field.map(|f| f.to_array()));
+            for (lane, k) in own.enumerate() {
+                let value = &mut values[k];
+                if low >> lane & 1 == 0 {
+                    value.0 += density * f64::from(potential[lane]);
+                    value.1 += density * Vec3::from_array(field.map(|f| f64::from(f[lane])));
+                } else {
+                    let (potential, field) = potential_and_field(block.points[k], corners);
+                    value.0 += density * potential;
+                    value.1 += density * field;
+                }
+            }
+        }
+    }
+
+    /// An element at one point: exactly if it is near, by its series if not.
+    fn add_alone(&self, q: Vec3, i: usize, density: f64, value: &mut Value) {
+        let offset = q - self.elements.centers[i];
+        let reach = self.opening.near * self.elements.sizes[i];
+        if offset.length_squared() > reach * reach {
+            let [potential, x, y, z] = act_alone(&self.of_elements[i], offset);
+            value.0 += potential;
+            value.1 += Vec3::new(x, y, z);
+        } else {
+            let (potential, field) = potential_and_field(q, self.elements.corners[i]);
+            value.0 += density * potential;
+            value.1 += density * field;
         }
     }
 }
 
 fn act_alone(series: &Series, offset: Vec3) -> [f64; SUMS] {
-    let offset = offset.to_array().map(|x| wide::f32x4::splat(x as f32));
-    act::<wide::f32x4, 3>(series, offset).map(|lanes| f64::from(lanes.to_array()[0]))
+    let offset = offset.to_array().map(|x| f32x4::splat(x as f32));
+    act::<f32x4, 3>(series, offset).map(|lanes| f64::from(lanes.to_array()[0]))
 }
 
 /// Adds what listed sources give at the groups by their series.
