@@ -55,3 +55,58 @@ fn chosen(soup: &TriangleSoup, lines: &SoupLines, count: Option<usize>) -> Vec<u
     }
     chosen
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::data::{Silent, TriangleSoup};
+    use crate::math::Vec3;
+    use crate::texture::{ProxyConfig, TextureConfig, texture};
+
+    /// A grid of n × n squares of side 1, two triangles each.
+    fn sheet(n: u32) -> TriangleSoup {
+        let place = |k: u32| Vec3::new(f64::from(k % (n + 1)), f64::from(k / (n + 1)), 0.0);
+        let quad = |k: u32| {
+            let v = k / n * (n + 1) + k % n;
+            [[v, v + 1, v + n + 2], [v, v + n + 2, v + n + 1]]
+        };
+        let places = (0..(n + 1) * (n + 1)).map(place).collect();
+        TriangleSoup::new(places, (0..n * n).flat_map(quad).collect()).unwrap()
+    }
+
+    #[test]
+    fn some_lines_are_spread_and_all_end_on_the_proxy() {
+        let proxy = ProxyConfig { offset: Some(1.0), samples: Some(20), ..ProxyConfig::default() };
+        let config = TextureConfig { proxy, ..TextureConfig::default() };
+        let made = texture(sheet(8).into(), &config, &Silent).unwrap();
+        let all = made.lines_to_proxy(None);
+        assert_eq!(all.len(), 81);
+        for line in (0..all.len()).map(|k| all.line(k)) {
+            let end = line.last().unwrap();
+            let on_proxy = made.anchors.of_starts.iter().any(|anchor| anchor.point == *end);
+            assert!(line[0].z == 0.0 && on_proxy, "{line:?}");
+        }
+        let some = made.lines_to_proxy(Some(4));
+        assert_eq!(some.len(), 4);
+        let quarter = |k: usize| {
+            let start = some.line(k)[0];
+            (start.x > 4.0, start.y > 4.0)
+        };
+        let mut quarters = [0, 1, 2, 3].map(quarter);
+        quarters.sort_unstable();
+        assert_eq!(quarters, [(false, false), (false, true), (true, false), (true, true)]);
+        assert!(made.lines_to_proxy(Some(0)).is_empty());
+    }
+
+    #[test]
+    fn seams_are_as_long_as_the_atlas_says() {
+        let proxy = ProxyConfig { offset: Some(1.0), samples: Some(16), ..ProxyConfig::default() };
+        let config = TextureConfig { proxy, ..TextureConfig::default() };
+        let made = texture(sheet(4).into(), &config, &Silent).unwrap();
+        let mesh = &made.proxy.mesh;
+        let seams = made.atlas.seams(mesh);
+        assert!(seams.is_sorted() && seams.iter().all(|[a, b]| a < b));
+        let length = |[a, b]: &[u32; 2]| mesh.positions[*a as usize].distance(mesh.positions[*b as usize]);
+        let total: f64 = seams.iter().map(length).sum();
+        assert!(total > 0.0 && (total / made.atlas.seam_length - 1.0).abs() < 1e-12, "{total}");
+    }
+}
