@@ -43,7 +43,8 @@ fn scaled(soup: &TriangleSoup, axes: Vec3, shift: Vec3) -> TriangleSoup {
 
 /// A square of side 2 about the origin in the plane z = 0, of 2 n² triangles that face up.
 fn plate(n: usize) -> TriangleSoup {
-    let at = |i: usize, j: usize| Vec3::new(i as f64, j as f64, 0.0) * (2.0 / n as f64) - Vec3::new(1.0, 1.0, 0.0);
+    let at =
+        |i: usize, j: usize| Vec3::new(i as f64, j as f64, 0.0) * (2.0 / n as f64) - Vec3::new(1.0, 1.0, 0.0);
     let cells = (0..n * n).flat_map(|k| {
         let (i, j) = (k / n, k % n);
         let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
@@ -109,7 +110,11 @@ fn an_ellipsoid_has_the_charges_of_the_closed_form() {
         .collect();
     let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
     assert!(rms < 0.015, "{rms}");
-    assert!(errors.iter().all(|e| e.abs() < 0.06), "{:?}", errors.iter().map(|e| e.abs()).fold(0.0, f64::max));
+    assert!(
+        errors.iter().all(|e| e.abs() < 0.06),
+        "{:?}",
+        errors.iter().map(|e| e.abs()).fold(0.0, f64::max)
+    );
 }
 
 /// The capacitance of a cube is 0.66067815 of its side, of a square 0.3667875 (Hwang & Mascagni 2004; Read 1997).
@@ -125,9 +130,8 @@ fn a_square_has_its_capacitance() {
 fn both_solvers_give_the_same_charges_and_the_potential_is_the_same_at_all_barycentres() {
     let soup = scaled(&sphere(3), Vec3::new(1.0, 0.5, 0.8), Vec3::ZERO);
     for integration in [Integration::Exact, Integration::Quadrature] {
-        let [one, other] = [Solver::Krylov, Solver::RobinHood].map(|solver| {
-            solve(soup.clone(), &ChargeConfig { solver, integration, ..as_is() })
-        });
+        let [one, other] = [Solver::Krylov, Solver::RobinHood]
+            .map(|solver| solve(soup.clone(), &ChargeConfig { solver, integration, ..as_is() }));
         assert!(one.report().deviation < 1e-10 && other.report().deviation < 1e-10);
         for (a, b) in one.charges().iter().zip(other.charges()) {
             assert!((a - b).abs() < 1e-7 * a.abs(), "{integration:?}: {a} {b}");
@@ -166,7 +170,10 @@ fn charge_is_conserved_and_has_the_sign_asked_for() {
         assert!((sum / total - 1.0).abs() < 1e-13, "{sum}");
         assert!(field.charges().iter().all(|q| q.signum() == total.signum()));
         let far = 500.0 * Vec3::new(0.6, 0.0, 0.8);
-        assert!(field.field(&[far])[0].distance(total * far / far.length().powi(3)) < 1e-4 * (total / 250_000.0).abs());
+        assert!(
+            field.field(&[far])[0].distance(total * far / far.length().powi(3))
+                < 1e-4 * (total / 250_000.0).abs()
+        );
     }
 }
 
@@ -256,7 +263,10 @@ fn the_midpoint_method_is_of_second_order_and_eulers_of_first() {
     let axes = Vec3::new(1.0, 0.4, 0.7);
     let field = solve(scaled(&sphere(3), axes, Vec3::ZERO), &as_is());
     let starts: Vec<Vec3> = (0..40)
-        .map(|k| axes * Vec3::new(f64::from(k).sin(), (1.7 * f64::from(k)).cos(), (0.6 * f64::from(k)).sin()).normalize())
+        .map(|k| {
+            axes * Vec3::new(f64::from(k).sin(), (1.7 * f64::from(k)).cos(), (0.6 * f64::from(k)).sin())
+                .normalize()
+        })
         .collect();
     let normals: Vec<Vec3> = starts.iter().map(|p| *p / (axes * axes)).collect();
     let ends = |integrator: Integrator, steps: usize| -> Vec<Vec3> {
@@ -295,8 +305,9 @@ fn short_steps_follow_turns_and_lead_as_far() {
 #[test]
 fn lines_of_a_plate_stay_on_the_side_that_is_asked_for() {
     let field = solve(plate(16), &as_is());
-    let starts: Vec<Vec3> =
-        (0..100).map(|k| 0.9 * Vec3::new((1.3 * f64::from(k)).sin(), (2.7 * f64::from(k)).cos(), 0.0)).collect();
+    let starts: Vec<Vec3> = (0..100)
+        .map(|k| 0.9 * Vec3::new((1.3 * f64::from(k)).sin(), (2.7 * f64::from(k)).cos(), 0.0))
+        .collect();
     for side in [1.0, -1.0] {
         let lines = lines_of(&field, &starts, &[side * Vec3::Z; 100], &LineConfig::default());
         for k in 0..100 {
@@ -314,15 +325,19 @@ fn lines_end_at_bounds_and_where_they_are_told() {
     let lines = lines_of(&field, &[Vec3::X, Vec3::Z], &[Vec3::X, Vec3::Z], &config);
     assert!((0..2).all(|k| (1.25..1.2601).contains(&lines.line(k).last().unwrap().max_element())));
     let stop = |line: usize, from: Vec3, to: Vec3| line == 1 && from.z < 1.1 && to.z >= 1.1;
-    let lines = trace_until(&field, &[Vec3::X, Vec3::Z], &[Vec3::X, Vec3::Z], &config, &stop, &Silent).unwrap();
-    assert!((1.1..1.1101).contains(&lines.line(1).last().unwrap().z) && lines.line(0).last().unwrap().x > 1.2);
+    let lines =
+        trace_until(&field, &[Vec3::X, Vec3::Z], &[Vec3::X, Vec3::Z], &config, &stop, &Silent).unwrap();
+    assert!(
+        (1.1..1.1101).contains(&lines.line(1).last().unwrap().z) && lines.line(0).last().unwrap().x > 1.2
+    );
 }
 
 #[test]
 fn one_triangle_two_parts_and_flat_triangles_are_charged() {
     let one = solve(loose(&[[Vec3::ZERO, Vec3::X, Vec3::Y]]), &ChargeConfig::default());
     assert!(one.report().elements >= 1500 && (one.charges()[0] - 1.0).abs() < 1e-12);
-    let (up, down) = (one.field(&[Vec3::new(0.3, 0.3, 0.01)])[0], one.field(&[Vec3::new(0.3, 0.3, -0.01)])[0]);
+    let (up, down) =
+        (one.field(&[Vec3::new(0.3, 0.3, 0.01)])[0], one.field(&[Vec3::new(0.3, 0.3, -0.01)])[0]);
     assert!(up.z > 0.0 && (up.z + down.z).abs() < 1e-3 * up.z);
 
     // Two equal spheres far apart share the charge; each lowers the other's share little.
@@ -363,10 +378,13 @@ fn bad_input_is_named() {
     assert_eq!(message, "none of the 1 triangles of the soup has an area");
     let message = solve(sphere(0), ChargeConfig { tolerance: f64::NAN, ..as_is() }).unwrap();
     assert_eq!(message, "tolerance is NaN: it has to be greater than 0");
-    let cancelled = ElectricField::solve(Arc::new(sphere(3)), &as_is(), &|fraction: f64, _: &str| fraction < 0.3);
+    let cancelled =
+        ElectricField::solve(Arc::new(sphere(3)), &as_is(), &|fraction: f64, _: &str| fraction < 0.3);
     assert!(matches!(cancelled, Err(ChargeError::Cancelled(_))));
     let field = self::solve(sphere(0), &as_is());
-    let lines = |starts: &[Vec3], normals: &[Vec3], config: LineConfig| trace(&field, starts, normals, &config, &Silent);
+    let lines = |starts: &[Vec3], normals: &[Vec3], config: LineConfig| {
+        trace(&field, starts, normals, &config, &Silent)
+    };
     let config = LineConfig::default();
     assert_eq!(lines(&[Vec3::X], &[], config), Err(LineError::Lengths { starts: 1, directions: 0 }));
     assert_eq!(lines(&[Vec3::X, Vec3::NAN], &[Vec3::X; 2], config), Err(LineError::NonFinite(1)));

@@ -6,10 +6,10 @@ use common::parts::{genus_five, gridded_cube, selector, torn};
 use common::{sphere, torus};
 use fast_winding::TriangleSoup;
 use fast_winding::data::Silent;
-use fast_winding::math::Vec3;
+use fast_winding::math::{Vec2, Vec3};
 use fast_winding::texture::{
-    Anchors, Atlas, AtlasConfig, Distortion, Mapping, Projection, Proxy, ProxyConfig, ProxySides, Seams, SoupLines,
-    Texture, TextureConfig, distortion, projected, seams, smallest_single_offset, texture,
+    Anchors, Atlas, AtlasConfig, Distortion, Mapping, Projection, Proxy, ProxyConfig, ProxySides, Seams,
+    SoupLines, Texture, TextureConfig, distortion, projected, seams, smallest_single_offset, texture,
 };
 use fast_winding::winding::{FieldConfig, WindingField};
 use std::collections::HashMap;
@@ -43,16 +43,24 @@ fn main() {
     let only = std::env::args().nth(1);
     table_one();
     let mut rows = Vec::new();
-    for case in cases().into_iter().filter(|c| only.as_ref().is_none_or(|only| c.name.contains(only.as_str()))) {
+    for case in
+        cases().into_iter().filter(|c| only.as_ref().is_none_or(|only| c.name.contains(only.as_str())))
+    {
         rows.push(run(&case));
     }
-    println!("\n| model | triangles | offset | proxy | charts | across | moved | folded | unfolded | flipped | torn | lost | weak |");
+    println!(
+        "\n| model | triangles | offset | proxy | charts | across | moved | folded | unfolded | flipped | torn | lost | weak |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     rows.iter().for_each(|row| println!("{}", row.counts));
-    println!("\n| model | texture | angles: mean ratio | largest | areas: spread | flipped + flat | pieces | seams, mm |");
+    println!(
+        "\n| model | texture | angles: mean ratio | largest | areas: spread | flipped + flat | pieces | seams, mm |"
+    );
     println!("|---|---|---|---|---|---|---|---|");
     rows.iter().flat_map(|row| &row.distortions).for_each(|line| println!("{line}"));
-    println!("\n| model | proxy ms | atlas ms | charges and lines ms | anchors and texture ms | share of all for another proxy's correspondence |");
+    println!(
+        "\n| model | proxy ms | atlas ms | charges and lines ms | anchors and texture ms | share of all for another proxy's correspondence |"
+    );
     println!("|---|---|---|---|---|---|");
     rows.iter().for_each(|row| println!("{}", row.times));
 }
@@ -61,9 +69,17 @@ fn main() {
 fn table_one() {
     let cylinder = common::parts::turned(&[(0.0, -1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 1.0)], 128);
     let field = WindingField::new(cylinder, FieldConfig::default());
-    println!("| offset % | samples | 2/o | vertices | triangles | paper: samples, vertices, triangles | warned |");
+    println!(
+        "| offset % | samples | 2/o | vertices | triangles | paper: samples, vertices, triangles | warned |"
+    );
     println!("|---|---|---|---|---|---|---|");
-    let paper = [(10.0, 13, 576, 1148), (5.0, 40, 6894, 13784), (3.0, 67, 21376, 42748), (2.0, 100, 50086, 100168), (1.0, 200, 210814, 421624)];
+    let paper = [
+        (10.0, 13, 576, 1148),
+        (5.0, 40, 6894, 13784),
+        (3.0, 67, 21376, 42748),
+        (2.0, 100, 50086, 100168),
+        (1.0, 200, 210814, 421624),
+    ];
     for (percent, samples, vertices, triangles) in paper {
         let config = ProxyConfig {
             offset: Some(2.0 * percent / 100.0),
@@ -72,13 +88,11 @@ fn table_one() {
             smoothing: 0,
         };
         let proxy = Proxy::new(&field, &config, &Silent).unwrap();
-        // The paper's counts are of both sides.
-        let both = |of: &dyn Fn(&fast_winding::data::SurfaceMesh) -> usize| of(&proxy.mesh) + of(&proxy.inner);
         println!(
             "| {percent} | {samples} | {:.0} | {} | {} | {samples}, {vertices}, {triangles} | {} |",
             200.0 / percent,
-            both(&|mesh| mesh.positions.len()),
-            both(&|mesh| mesh.triangles.len()),
+            proxy.mesh.positions.len(),
+            proxy.mesh.triangles.len(),
             if proxy.warnings.is_empty() { "no" } else { "too few samples" }
         );
     }
@@ -97,7 +111,12 @@ fn run(case: &Case) -> Row {
     let longest = clean.bounds().size().max_element();
     let offset = case.offset * longest;
     let config = TextureConfig {
-        proxy: ProxyConfig { offset: Some(offset), samples: case.samples, smoothing: 3, ..ProxyConfig::default() },
+        proxy: ProxyConfig {
+            offset: Some(offset),
+            samples: case.samples,
+            smoothing: 3,
+            ..ProxyConfig::default()
+        },
         ..TextureConfig::default()
     };
     let made = texture(soup.clone(), &config, &Silent).unwrap();
@@ -105,16 +124,28 @@ fn run(case: &Case) -> Row {
     let mapping = &report.mapping;
     let counts = format!(
         "| {} | {} | {:.1} % | {} in {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
-        case.name, mapping.triangles, 100.0 * case.offset, report.proxy_triangles, report.proxy_components,
-        report.charts, mapping.across_charts, mapping.moved, mapping.folded, mapping.unfolded, mapping.flipped,
-        mapping.torn, mapping.lost_lines, mapping.weak_field
+        case.name,
+        mapping.triangles,
+        100.0 * case.offset,
+        report.proxy_triangles,
+        report.proxy_components,
+        report.charts,
+        mapping.across_charts,
+        mapping.moved,
+        mapping.folded,
+        mapping.unfolded,
+        mapping.flipped,
+        mapping.torn,
+        mapping.lost_lines,
+        mapping.weak_field
     );
     let vertices = welded(clean);
     let mut distortions = vec![line(case.name, "proxy", &report.proxy_distortion, None)];
-    // Differences of a tenth of the mean edge are noise, not seams.
+    // Differences of half a mean edge are noise, not seams; charts that touch by chance of packing are moved apart.
     let edge = mean_edge(clean);
-    let scale = made.atlas.scale;
-    let ours = seams(clean, &made.mapping.uv, &vertices, 0.5 * edge * scale, None);
+    let apart = |(uv, chart): (&[Vec2; 3], &u32)| uv.map(|p| p + 10.0 * f64::from(*chart) * Vec2::X);
+    let by_chart: Vec<[Vec2; 3]> = made.mapping.uv.iter().zip(&made.mapping.charts).map(apart).collect();
+    let ours = seams(clean, &by_chart, &vertices, 0.5 * edge * made.atlas.scale, None);
     distortions.push(line(case.name, "ours", &mapping.distortion, Some(ours)));
     for (name, projection) in [
         ("planar", Projection::Planar),
@@ -131,7 +162,11 @@ fn run(case: &Case) -> Row {
     if case.noise == 0.0 && case.name.contains("parts") {
         let field = WindingField::new(soup.clone(), FieldConfig::default());
         let suggested = smallest_single_offset(&field, ProxySides::Outer, &Silent).unwrap();
-        eprintln!("{}: smallest offset of one component {:.2} % of the longest side", case.name, 100.0 * suggested / longest);
+        eprintln!(
+            "{}: smallest offset of one component {:.2} % of the longest side",
+            case.name,
+            100.0 * suggested / longest
+        );
     }
     Row { counts, distortions, times }
 }
@@ -170,7 +205,11 @@ fn times(case: &Case, soup: &Arc<TriangleSoup>, config: &TextureConfig, made: &T
         let anchors = Anchors::new(&made.lines, &made.proxy);
         drop(Mapping::new(soup, &made.lines, &anchors, &made.proxy, &made.atlas, &Silent).unwrap());
     });
-    format!("| {} | {proxy:.0} | {atlas:.0} | {lines:.0} | {again:.0} | {:.3} |", case.name, again / (lines + again))
+    format!(
+        "| {} | {proxy:.0} | {atlas:.0} | {lines:.0} | {again:.0} | {:.3} |",
+        case.name,
+        again / (lines + again)
+    )
 }
 
 fn mean_edge(soup: &TriangleSoup) -> f64 {

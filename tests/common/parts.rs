@@ -11,8 +11,7 @@ pub fn torn(soup: &TriangleSoup, noise: f64, seed: u64) -> TriangleSoup {
     // The mean length of a vector from a cube of half side 1 is 0.9606.
     let half = noise * soup.bounds().diagonal() / 0.9606;
     let mut jitter = || half * Vec3::new(2.0 * next() - 1.0, 2.0 * next() - 1.0, 2.0 * next() - 1.0);
-    let positions: Vec<Vec3> =
-        (0..soup.len()).flat_map(|t| soup.corners(t)).map(|p| p + jitter()).collect();
+    let positions: Vec<Vec3> = (0..soup.len()).flat_map(|t| soup.corners(t)).map(|p| p + jitter()).collect();
     let triangles = (0..soup.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     TriangleSoup::new(positions, triangles).unwrap()
 }

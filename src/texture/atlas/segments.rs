@@ -159,7 +159,7 @@ fn centred(faces: &Faces, found: &Segments) -> Vec<(u32, Vec3)> {
     best.iter().enumerate().filter(|(_, (_, t))| *t != NONE).map(seed).collect()
 }
 
-/// What no chart reaches goes to the neighbour over the longest side, and becomes charts of its own where there is none.
+/// What no chart reaches goes to the neighbour that faces most alike, ring by ring.
 fn adopt_rest(faces: &Faces, found: &mut Segments) {
     loop {
         let mut changes = Vec::new();
