@@ -50,7 +50,7 @@ pub fn distortion(pairs: impl Iterator<Item = ([Vec3; 3], [Vec2; 3])>) -> Distor
     }
     if weight > 0.0 {
         found.mean_ratio = ratios / weight;
-        found.area_spread = (squares / weight - (logs / weight).powi(2)).max(0.0).sqrt();
+        found.area_spread = ((squares - logs * logs / weight) / weight).max(0.0).sqrt();
     }
     found
 }

@@ -41,7 +41,7 @@ pub fn polar([x, y]: Jacobian) -> ([f64; 2], Vec2, Vec2) {
     // Of a + b with a turned and stretched, b mirrored (Blinn 1996).
     let (e, f) = (0.5 * (x.x + y.y), 0.5 * (x.x - y.y));
     let (g, h) = (0.5 * (x.y + y.x), 0.5 * (x.y - y.x));
-    let (turned, mirrored) = (e.hypot(h), f.hypot(g));
+    let (turned, mirrored) = (libm::hypot(e, h), libm::hypot(f, g));
     let rotation = if turned > 0.0 { Vec2::new(e, h) / turned } else { Vec2::X };
     let angle = 0.5 * (libm::atan2(g, f) + libm::atan2(h, e));
     ([turned + mirrored, turned - mirrored], rotation, Vec2::new(libm::cos(angle), libm::sin(angle)))

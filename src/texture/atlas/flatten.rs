@@ -68,7 +68,6 @@ fn on_disk(chart: &Chart, rest: &[Rest], triangles: &[[u32; 3]]) -> Option<Vec<V
     let lengths: Vec<f64> = (0..order.len())
         .map(|k| {
             let ends = [order[k], order[(k + 1) % order.len()]].map(|v| chart.positions[v as usize]);
-            // Equal steps mixed in: no two places of the circle may be the same.
             ends[0].distance(ends[1])
         })
         .collect();
@@ -78,6 +77,7 @@ fn on_disk(chart: &Chart, rest: &[Rest], triangles: &[[u32; 3]]) -> Option<Vec<V
         let angle = TAU * at;
         uv[*vertex as usize] = radius * Vec2::new(libm::cos(angle), libm::sin(angle));
         is_rim[*vertex as usize] = true;
+        // Equal steps mixed in: no two places of the circle may be the same.
         at += 0.5 * length / perimeter + 0.5 / order.len() as f64;
     }
     let mut system = System::new(uv.len(), triangles);

@@ -59,7 +59,7 @@ fn placed(sizes: &[Vec2], order: &[u32], scale: f64, side: u32, margin: u32) -> 
     let mut corners = vec![Vec2::ZERO; sizes.len()];
     for chart in order {
         let texels = (scale * sizes[*chart as usize]).ceil() + f64::from(margin);
-        let place = free.allocate(size2(texels.x as i32, (texels.y as i32).max(1)))?.rectangle.min;
+        let place = free.allocate(size2((texels.x as i32).max(1), (texels.y as i32).max(1)))?.rectangle.min;
         let corner = Vec2::new(f64::from(place.x), f64::from(place.y));
         corners[*chart as usize] = corner + 0.5 * f64::from(margin);
     }

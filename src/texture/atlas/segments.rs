@@ -35,7 +35,7 @@ type Entry = Reverse<(u64, u32, u32)>;
 /// # Errors
 /// If and only if the monitor cancels.
 pub fn segment(faces: &Faces, config: &AtlasConfig, monitor: &dyn Monitor) -> Result<Segments, Cancelled> {
-    let limit = config.cone_degrees.to_radians().cos();
+    let limit = libm::cos(config.cone_degrees.to_radians());
     let mut seeds: Vec<(u32, Vec3)> = Vec::new();
     let mut found = Segments { charts: vec![NONE; faces.len()], count: 0 };
     for round in 0..ADDING {
@@ -159,7 +159,7 @@ fn centred(faces: &Faces, found: &Segments) -> Vec<(u32, Vec3)> {
     best.iter().enumerate().filter(|(_, (_, t))| *t != NONE).map(seed).collect()
 }
 
-/// What no chart reaches goes to the neighbour over the longest side, and becomes charts of its own where there is none.
+/// What no chart reaches goes to the neighbour that faces most alike, ring by ring.
 fn adopt_rest(faces: &Faces, found: &mut Segments) {
     loop {
         let mut changes = Vec::new();

@@ -96,7 +96,7 @@ fn proxy_minimum(system: &mut System, rest: &[Rest], triangles: &[[u32; 3]], uv:
 /// The square of the weight that gives w² (σ − 1) the slope σ − σ⁻³ of the energy.
 fn weight(s: f64) -> f64 {
     let s = s.max(1e-3);
-    if (s - 1.0).abs() < 1e-6 { 4.0 } else { (s - s.powi(-3)) / (s - 1.0) }
+    if (s - 1.0).abs() < 1e-6 { 4.0 } else { (s - 1.0 / (s * s * s)) / (s - 1.0) }
 }
 
 /// The least positive share of a step at which a triangle becomes flat.

@@ -1,10 +1,11 @@
 //! Triangles across seams: put into one chart by its closest points, whichever keeps the area best (Schier et al. 2018, section 8).
-use crate::data::{Shape, TriangleSoup};
+use crate::data::{Shape, SurfaceMesh, TriangleSoup};
 use crate::distance::DistanceTree;
 use crate::math::{Vec2, Vec3, area_vector};
 use crate::texture::jacobian::Rest;
 use crate::texture::{Anchor, Anchors, Atlas, Proxy, SoupLines};
 use glam::DQuat;
+use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
 /// How a triangle got its place.
@@ -68,11 +69,8 @@ impl<'a> Charts<'a> {
         (0..).zip(&atlas.charts).for_each(|(t, c)| of[*c as usize].push(t));
         let tree = |(faces, is_needed): (Vec<u32>, bool)| {
             is_needed.then(|| {
-                let mesh = &proxy.mesh;
-                let triangles = faces.iter().map(|t| mesh.triangles[*t as usize]).collect();
-                let part = TriangleSoup::new(mesh.positions.clone(), triangles)
-                    .expect("the mesh of a proxy is finite and indexed");
-                (DistanceTree::new(&Shape::Soup(Arc::new(compact(&part)))), faces)
+                let soup = part(&proxy.mesh, &faces);
+                (DistanceTree::new(&Shape::Soup(Arc::new(soup))), faces)
             })
         };
         Charts { proxy, atlas, trees: of.into_iter().zip(is_needed).map(tree).collect() }
@@ -146,20 +144,16 @@ impl<'a> Charts<'a> {
     }
 }
 
-/// Without the vertices that no triangle uses.
-fn compact(soup: &TriangleSoup) -> TriangleSoup {
-    let mut numbers = vec![u32::MAX; soup.positions().len()];
+/// The soup of some triangles of a mesh.
+fn part(mesh: &SurfaceMesh, faces: &[u32]) -> TriangleSoup {
+    let mut numbers = FxHashMap::default();
     let mut positions = Vec::new();
-    let triangles = soup.triangles().iter().map(|t| {
-        t.map(|v| {
-            let number = &mut numbers[v as usize];
-            if *number == u32::MAX {
-                *number = positions.len() as u32;
-                positions.push(soup.positions()[v as usize]);
-            }
-            *number
+    let mut number = |v: u32| {
+        *numbers.entry(v).or_insert_with(|| {
+            positions.push(mesh.positions[v as usize]);
+            positions.len() as u32 - 1
         })
-    });
-    let triangles = triangles.collect();
-    TriangleSoup::new(positions, triangles).expect("parts of a soup are finite and indexed")
+    };
+    let triangles = faces.iter().map(|t| mesh.triangles[*t as usize].map(&mut number)).collect();
+    TriangleSoup::new(positions, triangles).expect("meshes of this crate are finite and indexed")
 }
