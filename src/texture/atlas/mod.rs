@@ -3,6 +3,7 @@
 mod charts;
 mod faces;
 mod flatten;
+mod merge;
 mod overlap;
 mod pack;
 mod seams;

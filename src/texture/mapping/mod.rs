@@ -29,7 +29,7 @@ pub struct MappingReport {
     pub moved: usize,
     /// Triangles that were flipped, or flat, before anything was moved: those within one chart.
     pub folded: usize,
-    /// Triangles, flipped or flat even after moving, that were laid into a chart as they are in space; they may reach beyond it.
+    /// Triangles, flipped, squashed or torn after moving, that were laid into a chart as they are in space; they may reach beyond it.
     pub unfolded: usize,
     /// Triangles that are flipped at last, or flat.
     pub flipped: usize,
