@@ -43,7 +43,8 @@ fn scaled(soup: &TriangleSoup, axes: Vec3, shift: Vec3) -> TriangleSoup {
 
 /// A square of side 2 about the origin in the plane z = 0, of 2 n² triangles that face up.
 fn plate(n: usize) -> TriangleSoup {
-    let at = |i: usize, j: usize| Vec3::new(i as f64, j as f64, 0.0) * (2.0 / n as f64) - Vec3::new(1.0, 1.0, 0.0);
+    let at =
+        |i: usize, j: usize| Vec3::new(i as f64, j as f64, 0.0) * (2.0 / n as f64) - Vec3::new(1.0, 1.0, 0.0);
     let cells = (0..n * n).flat_map(|k| {
         let (i, j) = (k / n, k % n);
         let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
@@ -109,25 +110,29 @@ fn an_ellipsoid_has_the_charges_of_the_closed_form() {
         .collect();
     let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
     assert!(rms < 0.015, "{rms}");
-    assert!(errors.iter().all(|e| e.abs() < 0.06), "{:?}", errors.iter().map(|e| e.abs()).fold(0.0, f64::max));
+    assert!(
+        errors.iter().all(|e| e.abs() < 0.06),
+        "{:?}",
+        errors.iter().map(|e| e.abs()).fold(0.0, f64::max)
+    );
 }
 
-/// The capacitance of a cube is 0.66067815 of its side, of a square 0.3667875 (Hwang & Mascagni 2004; Read 1997).
+/// 0.3667875 of its side (Read 1997). The density is singular along the edges, so errors halve with the triangles' size, and
+/// the extrapolation from two sizes is much nearer than either.
 #[test]
 fn a_square_has_its_capacitance() {
     let potential = |n: usize| solve(plate(n), &as_is()).report().potential;
     let expected = 1.0 / (2.0 * 0.366_787_5);
     let (coarse, fine) = (potential(12) / expected - 1.0, potential(24) / expected - 1.0);
-    assert!(fine.abs() < 0.01 && fine.abs() < 0.6 * coarse.abs(), "{coarse} {fine}");
+    assert!((coarse / fine - 2.0).abs() < 0.1 && (2.0 * fine - coarse).abs() < 1e-3, "{coarse} {fine}");
 }
 
 #[test]
 fn both_solvers_give_the_same_charges_and_the_potential_is_the_same_at_all_barycentres() {
     let soup = scaled(&sphere(3), Vec3::new(1.0, 0.5, 0.8), Vec3::ZERO);
     for integration in [Integration::Exact, Integration::Quadrature] {
-        let [one, other] = [Solver::Krylov, Solver::RobinHood].map(|solver| {
-            solve(soup.clone(), &ChargeConfig { solver, integration, ..as_is() })
-        });
+        let [one, other] = [Solver::Krylov, Solver::RobinHood]
+            .map(|solver| solve(soup.clone(), &ChargeConfig { solver, integration, ..as_is() }));
         assert!(one.report().deviation < 1e-10 && other.report().deviation < 1e-10);
         for (a, b) in one.charges().iter().zip(other.charges()) {
             assert!((a - b).abs() < 1e-7 * a.abs(), "{integration:?}: {a} {b}");
@@ -166,7 +171,10 @@ fn charge_is_conserved_and_has_the_sign_asked_for() {
         assert!((sum / total - 1.0).abs() < 1e-13, "{sum}");
         assert!(field.charges().iter().all(|q| q.signum() == total.signum()));
         let far = 500.0 * Vec3::new(0.6, 0.0, 0.8);
-        assert!(field.field(&[far])[0].distance(total * far / far.length().powi(3)) < 1e-4 * (total / 250_000.0).abs());
+        assert!(
+            field.field(&[far])[0].distance(total * far / far.length().powi(3))
+                < 1e-4 * (total / 250_000.0).abs()
+        );
     }
 }
 
@@ -254,9 +262,14 @@ fn lines_do_not_cross() {
 #[test]
 fn the_midpoint_method_is_of_second_order_and_eulers_of_first() {
     let axes = Vec3::new(1.0, 0.4, 0.7);
-    let field = solve(scaled(&sphere(3), axes, Vec3::ZERO), &as_is());
+    // No clusters: where others are taken, the field of the tree is not smooth.
+    let opening = Opening { beta: 1e3, near: 1e3 };
+    let field = solve(scaled(&sphere(2), axes, Vec3::ZERO), &ChargeConfig { opening, ..as_is() });
     let starts: Vec<Vec3> = (0..40)
-        .map(|k| axes * Vec3::new(f64::from(k).sin(), (1.7 * f64::from(k)).cos(), (0.6 * f64::from(k)).sin()).normalize())
+        .map(|k| {
+            axes * Vec3::new(f64::from(k).sin(), (1.7 * f64::from(k)).cos(), (0.6 * f64::from(k)).sin())
+                .normalize()
+        })
         .collect();
     let normals: Vec<Vec3> = starts.iter().map(|p| *p / (axes * axes)).collect();
     let ends = |integrator: Integrator, steps: usize| -> Vec<Vec3> {
@@ -264,20 +277,20 @@ fn the_midpoint_method_is_of_second_order_and_eulers_of_first() {
             integrator,
             steps,
             step: Some(0.8 / steps as f64),
-            start_offset: Some(0.2),
+            start_offset: Some(0.3),
             ..Default::default()
         };
         let lines = lines_of(&field, &starts, &normals, &config);
         (0..40).map(|k| *lines.line(k).last().unwrap()).collect()
     };
-    let best = ends(Integrator::Midpoint, 400);
+    let best = ends(Integrator::Midpoint, 640);
     let error = |integrator: Integrator, steps: usize| -> f64 {
         ends(integrator, steps).iter().zip(&best).map(|(a, b)| a.distance(*b)).sum::<f64>() / 40.0
     };
-    let euler = error(Integrator::Euler, 10) / error(Integrator::Euler, 40);
-    let midpoint = error(Integrator::Midpoint, 5) / error(Integrator::Midpoint, 20);
-    assert!((3.0..5.5).contains(&euler), "{euler}");
-    assert!((9.0..25.0).contains(&midpoint), "{midpoint}");
+    let euler = error(Integrator::Euler, 20) / error(Integrator::Euler, 80);
+    let midpoint = error(Integrator::Midpoint, 20) / error(Integrator::Midpoint, 80);
+    assert!((3.5..4.6).contains(&euler), "{euler}");
+    assert!((13.0..20.0).contains(&midpoint), "{midpoint}");
 }
 
 #[test]
@@ -295,8 +308,9 @@ fn short_steps_follow_turns_and_lead_as_far() {
 #[test]
 fn lines_of_a_plate_stay_on_the_side_that_is_asked_for() {
     let field = solve(plate(16), &as_is());
-    let starts: Vec<Vec3> =
-        (0..100).map(|k| 0.9 * Vec3::new((1.3 * f64::from(k)).sin(), (2.7 * f64::from(k)).cos(), 0.0)).collect();
+    let starts: Vec<Vec3> = (0..100)
+        .map(|k| 0.9 * Vec3::new((1.3 * f64::from(k)).sin(), (2.7 * f64::from(k)).cos(), 0.0))
+        .collect();
     for side in [1.0, -1.0] {
         let lines = lines_of(&field, &starts, &[side * Vec3::Z; 100], &LineConfig::default());
         for k in 0..100 {
@@ -314,15 +328,19 @@ fn lines_end_at_bounds_and_where_they_are_told() {
     let lines = lines_of(&field, &[Vec3::X, Vec3::Z], &[Vec3::X, Vec3::Z], &config);
     assert!((0..2).all(|k| (1.25..1.2601).contains(&lines.line(k).last().unwrap().max_element())));
     let stop = |line: usize, from: Vec3, to: Vec3| line == 1 && from.z < 1.1 && to.z >= 1.1;
-    let lines = trace_until(&field, &[Vec3::X, Vec3::Z], &[Vec3::X, Vec3::Z], &config, &stop, &Silent).unwrap();
-    assert!((1.1..1.1101).contains(&lines.line(1).last().unwrap().z) && lines.line(0).last().unwrap().x > 1.2);
+    let lines =
+        trace_until(&field, &[Vec3::X, Vec3::Z], &[Vec3::X, Vec3::Z], &config, &stop, &Silent).unwrap();
+    assert!(
+        (1.1..1.1101).contains(&lines.line(1).last().unwrap().z) && lines.line(0).last().unwrap().x > 1.2
+    );
 }
 
 #[test]
 fn one_triangle_two_parts_and_flat_triangles_are_charged() {
     let one = solve(loose(&[[Vec3::ZERO, Vec3::X, Vec3::Y]]), &ChargeConfig::default());
     assert!(one.report().elements >= 1500 && (one.charges()[0] - 1.0).abs() < 1e-12);
-    let (up, down) = (one.field(&[Vec3::new(0.3, 0.3, 0.01)])[0], one.field(&[Vec3::new(0.3, 0.3, -0.01)])[0]);
+    let (up, down) =
+        (one.field(&[Vec3::new(0.3, 0.3, 0.01)])[0], one.field(&[Vec3::new(0.3, 0.3, -0.01)])[0]);
     assert!(up.z > 0.0 && (up.z + down.z).abs() < 1e-3 * up.z);
 
     // Two equal spheres far apart share the charge; each lowers the other's share little.
@@ -353,6 +371,62 @@ fn copies_of_a_triangle_share_its_charge() {
     }
 }
 
+/// Between concentric spheres of radii 1 and 2 with charges ±1 the field is 1/r², and beyond them 0. The spheres' potentials
+/// are ±1 by the choice of the scale: V₁ = q + Q/2 = v, V₂ = (q + Q)/2 = −v, so that q = 4v, Q = −6v.
+#[test]
+fn the_dipole_field_leads_from_the_soup_to_what_is_around_it() {
+    let (inner, outer) = (sphere(3), scaled(&sphere(3), Vec3::splat(2.0), Vec3::ZERO));
+    let field = ElectricField::dipole(&inner, &outer, &as_is(), &Silent).unwrap();
+    assert!(field.report().deviation < 1e-9);
+    let charge: f64 = field.charges()[512..].iter().sum();
+    assert!((charge + 1.5).abs() < 0.03, "{charge}");
+    let starts: Vec<Vec3> = (0..60).map(|t| inner.corners(8 * t)[0]).collect();
+    let config = LineConfig { steps: 60, step: Some(0.02), ..Default::default() };
+    let lines = lines_of(&field, &starts, &starts, &config);
+    for (hit, start) in first_hits(&lines, &outer).iter().zip(&starts) {
+        assert!(hit.is_some_and(|hit| hit.point.normalize().distance(*start) < 0.02), "{hit:?}");
+    }
+    let at = 1.5 * Vec3::new(0.6, 0.0, 0.8);
+    assert!((field.field(&[at])[0] * 2.25).distance(at / 1.5) < 0.02);
+}
+
+/// A pipe of 320 faces and 160 vertices, of wall thickness 0.1: no line from its inside leads through it, with exact integrals.
+#[test]
+fn lines_from_inside_a_pipe_leave_through_its_ends() {
+    let (around, along) = (16, 4);
+    let at = |k: usize, z: usize, r: f64| {
+        let angle = 2.0 * PI * k as f64 / around as f64;
+        Vec3::new(r * angle.cos(), r * angle.sin(), z as f64 - 0.5 * along as f64)
+    };
+    let mut cells = Vec::new();
+    for k in 0..around {
+        let next = k + 1;
+        for z in 0..along {
+            cells.push([at(k, z, 1.0), at(next, z, 1.0), at(next, z + 1, 1.0), at(k, z + 1, 1.0)]);
+            cells.push([at(next, z, 0.9), at(k, z, 0.9), at(k, z + 1, 0.9), at(next, z + 1, 0.9)]);
+        }
+        cells.push([at(k, along, 0.9), at(k, along, 1.0), at(next, along, 1.0), at(next, along, 0.9)]);
+        cells.push([at(k, 0, 1.0), at(k, 0, 0.9), at(next, 0, 0.9), at(next, 0, 1.0)]);
+    }
+    let pipe = loose(&cells.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect::<Vec<_>>());
+    assert_eq!(pipe.len(), 320);
+    let mut starts = Vec::new();
+    let mut normals = Vec::new();
+    for [a, b, c, _] in cells.iter().filter(|cell| cell.iter().all(|p| p.truncate().length() < 0.95)) {
+        starts.push(a.midpoint(*c));
+        normals.push((*b - *a).cross(*c - *a));
+    }
+    let config = LineConfig { steps: 400, step: Some(0.02), ..Default::default() };
+    let field = solve(pipe, &ChargeConfig { tolerance: 1e-8, ..Default::default() });
+    let lines = lines_of(&field, &starts, &normals, &config);
+    // Without their starts, which are on the wall.
+    let mut free = FieldLines::default();
+    (0..lines.len()).for_each(|k| free.push(&lines.line(k)[1..]));
+    let hits = first_hits(&free, field.soup());
+    assert_eq!(hits.iter().filter(|hit| hit.is_some()).count(), 0);
+    assert!((0..lines.len()).all(|k| lines.line(k).last().unwrap().z.abs() > 2.0));
+}
+
 #[test]
 fn bad_input_is_named() {
     let flat = loose(&[[Vec3::ZERO, Vec3::X, 2.0 * Vec3::X]]);
@@ -363,10 +437,13 @@ fn bad_input_is_named() {
     assert_eq!(message, "none of the 1 triangles of the soup has an area");
     let message = solve(sphere(0), ChargeConfig { tolerance: f64::NAN, ..as_is() }).unwrap();
     assert_eq!(message, "tolerance is NaN: it has to be greater than 0");
-    let cancelled = ElectricField::solve(Arc::new(sphere(3)), &as_is(), &|fraction: f64, _: &str| fraction < 0.3);
+    let cancelled =
+        ElectricField::solve(Arc::new(sphere(3)), &as_is(), &|fraction: f64, _: &str| fraction < 0.3);
     assert!(matches!(cancelled, Err(ChargeError::Cancelled(_))));
     let field = self::solve(sphere(0), &as_is());
-    let lines = |starts: &[Vec3], normals: &[Vec3], config: LineConfig| trace(&field, starts, normals, &config, &Silent);
+    let lines = |starts: &[Vec3], normals: &[Vec3], config: LineConfig| {
+        trace(&field, starts, normals, &config, &Silent)
+    };
     let config = LineConfig::default();
     assert_eq!(lines(&[Vec3::X], &[], config), Err(LineError::Lengths { starts: 1, directions: 0 }));
     assert_eq!(lines(&[Vec3::X, Vec3::NAN], &[Vec3::X; 2], config), Err(LineError::NonFinite(1)));
