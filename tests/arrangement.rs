@@ -10,6 +10,13 @@ use std::collections::HashMap;
 struct Random(u64);
 
 impl Random {
+    /// A sequence of its own for each round of a test.
+    fn of_round(test: u64, round: usize) -> Random {
+        let mut random = Random(1000 + 7919 * round as u64 + 31 * test);
+        (0..5).for_each(|_| _ = random.below(2));
+        random
+    }
+
     fn below(&mut self, n: u64) -> u64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (self.0 >> 33) % n
@@ -153,8 +160,9 @@ fn arranged(faces: &[[Vec3; 3]], pairs: Pairs) -> (Vec<Vec3>, Vec<[u32; 3]>, Arr
 
 #[test]
 fn soups_on_small_grids_are_cut_along_each_other() {
-    let mut random = Random(7);
-    for round in 0..300 {
+    // In the last ones a crossing falls on a vertex that only touches other triangles.
+    for round in (0..300).chain([649, 1196, 1541, 1736]) {
+        let mut random = Random::of_round(0, round);
         let (size, count) = [(3, 8), (4, 14), (6, 20), (9, 24)][round % 4];
         let faces: Vec<[Vec3; 3]> =
             (0..count).map(|_| [random.on_grid(size), random.on_grid(size), random.on_grid(size)]).collect();
@@ -166,8 +174,8 @@ fn soups_on_small_grids_are_cut_along_each_other() {
 
 #[test]
 fn flat_soups_become_one_picture() {
-    let mut random = Random(3);
-    for round in 0..200 {
+    for round in (0..200).chain([991, 1699]) {
+        let mut random = Random::of_round(1, round);
         let tilt = |p: Vec3| if round % 2 == 0 { p.with_z(0.0) } else { p.with_z(p.x + 2.0 * p.y) };
         let faces: Vec<[Vec3; 3]> = (0..8).map(|_| [0; 3].map(|_| tilt(random.on_grid(5)))).collect();
         let (positions, triangles, result) = arranged(&faces, Pairs::All);
@@ -178,8 +186,9 @@ fn flat_soups_become_one_picture() {
 
 #[test]
 fn two_soups_are_cut_along_each_other_only() {
-    let mut random = Random(11);
-    for round in 0..200 {
+    // In some of the last ones triangles of one soup overlap each other in a plane, and one of the other.
+    for round in (0..200).chain([220, 306, 385, 477, 552, 693, 732]) {
+        let mut random = Random::of_round(2, round);
         let size = [3, 4, 7][round % 3];
         let faces: Vec<[Vec3; 3]> =
             (0..20).map(|_| [random.on_grid(size), random.on_grid(size), random.on_grid(size)]).collect();

@@ -42,7 +42,7 @@ export interface Info {
 export interface CallOptions {
   /** Stops the call, which then rejects with `Aborted`. Not heard by `./sync`. */
   signal?: AbortSignal;
-  /** Hears of progress: a fraction in [0, 1] that never falls within one stage, and the stage's name. */
+  /** Hears of progress: a fraction in [0, 1] that never falls, and the stage's name. */
   onProgress?: (fraction: number, stage: string) => void;
 }
 

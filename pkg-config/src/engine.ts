@@ -30,6 +30,24 @@ const VOXELS_BY_MORE = ['continuation', 'rays', 'fast', 'cloud'];
 const READ_BY_MORE = [[0x89, 0x46, 0x57], [0x50, 0x4b]];
 const beginsSo = (bytes: unknown) => bytes instanceof Uint8Array && READ_BY_MORE.some((start) => start.every((byte, k) => bytes[k] === byte));
 
+/** Progress that never falls, and ends at 1: what a shape takes before it can answer is told as a part of the call. */
+class Rising {
+  private told = 0;
+  private stage = '';
+
+  constructor(private readonly progress: NonNullable<Progress>) {}
+
+  readonly tell = (fraction: number, stage: string) => {
+    this.told = Math.max(this.told, fraction);
+    this.stage = stage;
+    this.progress(this.told, stage);
+  };
+
+  end(): void {
+    if (this.stage && this.told < 1) this.progress(1, this.stage);
+  }
+}
+
 /** The shapes of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
   readonly job: Job;
@@ -57,10 +75,16 @@ export class Engine {
 
   /** Runs one call. Throws what the WebAssembly throws. */
   run(request: Request, progress: Progress, watcher?: Watcher): unknown {
-    const { method, handle, args, makes } = request;
-    this.job.listen(progress);
+    const rising = progress && new Rising(progress);
+    this.job.listen(rising?.tell);
     this.job.watch(watcher);
     if (this.needsMore(request)) placeMore();
+    const value = this.answer(request);
+    rising?.end();
+    return value;
+  }
+
+  private answer({ method, handle, args, makes }: Request): unknown {
     if (method in FUNCTIONS) return this.runFunction(method as keyof typeof FUNCTIONS, args);
     if (method in MAKERS) return this.make(MAKERS[method as keyof typeof MAKERS], handle, args);
     if (method === 'free') return this.free(handle);

@@ -1,8 +1,11 @@
 //! Triangles that overlap in a plane get the same pieces where they do.
+use super::LEAF;
 use super::refine::Work;
 use super::triangulate::shares;
 use super::twofold::Twofold;
+use crate::bvh::Bvh;
 use crate::data::{Cancelled, Monitor};
+use crate::math::Aabb;
 
 /// Places nearer to an edge than this share of the triangle's height lie on it.
 const RIM: f64 = 1e-12;
@@ -50,7 +53,9 @@ impl Work<'_> {
     fn share_pieces(&mut self, pairs: &[[u32; 2]]) {
         let mut pairs: Vec<[u32; 2]> =
             pairs.iter().copied().filter(|[low, high]| self.is_cut(*low) || self.is_cut(*high)).collect();
+        pairs.extend(self.neighbours_of_one(&pairs));
         pairs.sort_unstable();
+        pairs.dedup();
         let mut involved: Vec<u32> = pairs.iter().flatten().copied().collect();
         involved.sort_unstable();
         involved.dedup();
@@ -78,6 +83,24 @@ impl Work<'_> {
                 }
             }
         }
+    }
+
+    /// Pairs of triangles that may overlap each other and a third, though they are not cut along each other: those of one side.
+    fn neighbours_of_one(&self, pairs: &[[u32; 2]]) -> Vec<[u32; 2]> {
+        let mut links: Vec<[u32; 2]> = pairs.iter().flat_map(|[a, b]| [[*a, *b], [*b, *a]]).collect();
+        links.sort_unstable();
+        let mut found = Vec::new();
+        for of_one in links.chunk_by(|a, b| a[0] == b[0]).filter(|of_one| of_one.len() > 1) {
+            let corners = |link: &[u32; 2]| self.corners[link[1] as usize];
+            let boxes: Vec<Aabb> = of_one
+                .iter()
+                .map(|link| Aabb::around(corners(link).map(|v| self.points.positions()[v as usize])))
+                .collect();
+            let overlaps = Bvh::build(&boxes, LEAF).own_overlaps(&boxes);
+            found.extend(overlaps.into_iter().map(|pair| pair.map(|k| of_one[k as usize][1])));
+        }
+        found.iter_mut().for_each(|pair| pair.sort_unstable());
+        found
     }
 
     fn is_cut(&self, triangle: u32) -> bool {

@@ -152,6 +152,11 @@ fn start<'a>(positions: Vec<Vec3>, corners: &'a [[u32; 3]], found: &Contacts) ->
         .flat_map(|(_, pair)| *pair)
         .flat_map(|t| corners[t as usize])
         .for_each(|v| points.name(v));
+    for key in &keys {
+        if let Key::Vertex(v) = key {
+            points.name(*v); // one that only touches another triangle, too
+        }
+    }
     let numbers = points.resolve(&keys, corners);
     let number = |key: &Key| numbers[keys.binary_search(key).expect("every key was collected")];
     let mut edges = Edges::default();

@@ -1,6 +1,6 @@
 //! What the field says of the volume: where it is ambiguous, and where it counts more than once or inside out.
 use super::report::{Bounds, FieldCheck, List, Region, RegionKind};
-use crate::data::{Lattice, Monitor, Sets};
+use crate::data::{Lattice, Monitor, Parts, Sets};
 use crate::math::{Aabb, Vec3};
 use crate::winding::{Accuracy, FieldError, WindingField};
 
@@ -52,6 +52,8 @@ pub fn field_check(
     let counts = (size / cell - Vec3::splat(1e-9)).ceil().max(Vec3::ONE).to_array().map(|c| c as usize);
     // The cells fill the bounds exactly.
     let lattice = Lattice::with_counts(bounds, counts)?;
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.6);
     let values = field.evaluate_lattice(&lattice, Accuracy::default(), monitor)?.values;
     let mut cells = vec![Volumes::default(); lattice.len()];
     let class = |w: f64| (kind(w), w >= 0.5 - 1e-9);
@@ -72,6 +74,7 @@ pub fn field_check(
         })
     };
     let points: Vec<Vec3> = mixed.iter().flat_map(parts).collect();
+    monitor.begin(0.6, 1.0);
     let finer = field.evaluate(&points, Accuracy::default(), monitor)?;
     for (index, eight) in mixed.iter().zip(finer.as_chunks::<8>().0) {
         eight.iter().for_each(|w| cells[*index].add(*w, lattice.cell_volume() / 8.0));

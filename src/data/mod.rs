@@ -24,7 +24,7 @@ pub use cloud::{CloudError, OrientedCloud, PointCloud};
 pub use lattice::{Grid, Lattice, LatticeError};
 pub use layers::{Layer, Polygon, Ring, sides, signed_area};
 pub use mesh::SurfaceMesh;
-pub use monitor::{Cancelled, Monitor, Silent};
+pub use monitor::{Cancelled, Monitor, Parts, Silent};
 pub(crate) use pairs::{ascending, sorted_pairs};
 pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each, sort_keyed, threads};
 pub use saved::SavedError;

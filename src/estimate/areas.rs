@@ -3,7 +3,7 @@ use super::neighbours::Neighbourhoods;
 use super::sites::Sites;
 use super::voronoi::voronoi_areas;
 use super::{EstimateConfig, EstimateError};
-use crate::data::{Cancelled, Monitor, OrientedCloud, PointCloud};
+use crate::data::{Cancelled, Monitor, OrientedCloud, Parts, PointCloud};
 use crate::math::Vec3;
 use std::f64::consts::PI;
 
@@ -89,7 +89,10 @@ pub(super) fn areas_by(
         return Err(EstimateError::OnePlace { points: points.len() });
     }
     let sites = Sites::find(points, normals);
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.4);
     let neighbourhoods = Neighbourhoods::find(&sites.points, &sites.normals, config.neighbours, monitor)?;
+    monitor.begin(0.4, 1.0);
     Ok(sites.share(of_sites(&sites, &sites.normals, &neighbourhoods, monitor)?))
 }
 

@@ -13,7 +13,7 @@ pub use areas::{AreaMethod, areas, complete_with};
 pub use roughness::{Roughness, deviations, roughness};
 pub use spacing::{Spacings, spacings};
 
-use crate::data::{Cancelled, CloudError, Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
+use crate::data::{Cancelled, CloudError, Monitor, OrientedCloud, Parts, PointCloud, Warning, WarningKind};
 use crate::math::{Vec3, fit_plane};
 use neighbours::Neighbourhoods;
 use sites::Sites;
@@ -87,10 +87,14 @@ pub fn orient(
         return Ok((complete(cloud, config, monitor)?, vec![]));
     }
     let points = cloud.points();
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.3);
     let sites = Sites::find(points, &[]);
     let neighbourhoods = Neighbourhoods::find(&sites.points, &[], config.neighbours, monitor)?;
+    monitor.begin(0.3, 0.5);
     let mut normals = normals::plane_normals(&sites.points, &neighbourhoods, monitor)?;
     orientation::propagate(&sites.points, &mut normals, &neighbourhoods, monitor)?;
+    monitor.begin(0.5, 1.0);
     let areas = match cloud.areas() {
         Some(areas) => areas.to_vec(),
         None => sites.share(voronoi_areas(&sites, &normals, &neighbourhoods, monitor)?),

@@ -10,7 +10,7 @@ pub use schedule::Widths;
 pub use soup::{FaceConfig, FaceMethod, OrientReport, orient_soup};
 pub use stochastic::{LossWeights, StochasticConfig, stochastic_area_vectors};
 
-use crate::data::{Monitor, OrientedCloud, PointCloud, Warning, WarningKind};
+use crate::data::{Monitor, OrientedCloud, Parts, PointCloud, Warning, WarningKind};
 use crate::estimate::{self, EstimateConfig, EstimateError};
 use crate::math::Vec3;
 use consistency::watched_area_vectors;
@@ -62,21 +62,25 @@ pub fn orient_watched(
 ) -> Result<(OrientedCloud, Vec<Warning>), EstimateError> {
     let config = EstimateConfig::default();
     let points = cloud.points();
-    let part = |fraction: f64, stage: &str| monitor.report(0.9 * fraction, stage).is_ok();
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.9);
     let area_vectors = match method {
         _ if cloud.normals().is_some() || estimate::is_flat(points) => None,
         OrientMethod::Consistency(consistency) => {
-            Some(watched_area_vectors(points, consistency, &part, watch)?)
+            Some(watched_area_vectors(points, consistency, monitor, watch)?)
         }
-        OrientMethod::Stochastic(stochastic) => Some(stochastic_area_vectors(points, stochastic, &part)?),
+        OrientMethod::Stochastic(stochastic) => Some(stochastic_area_vectors(points, stochastic, monitor)?),
         OrientMethod::Propagation => None,
     };
-    let Some(area_vectors) = area_vectors else { return estimate::orient(cloud, &config, monitor) };
+    let Some(area_vectors) = area_vectors else {
+        monitor.begin(0.0, 1.0);
+        return estimate::orient(cloud, &config, monitor);
+    };
     // Where the field has no slope at all, nothing is better than anything else.
     let normals: Vec<Vec3> = area_vectors.iter().map(|v| v.try_normalize().unwrap_or(Vec3::Z)).collect();
-    let rest = |fraction: f64, stage: &str| monitor.report(0.9 + 0.1 * fraction, stage).is_ok();
+    monitor.begin(0.9, 1.0);
     let given = (points.to_vec(), Some(normals), cloud.areas().map(<[f64]>::to_vec));
     let (with_normals, _) = PointCloud::cleaned(given.0, given.1, given.2)?;
-    let oriented = estimate::complete(&with_normals, &config, &rest)?;
+    let oriented = estimate::complete(&with_normals, &config, monitor)?;
     Ok((oriented, vec![Warning::new(WarningKind::EstimatedNormals, points.len())]))
 }

@@ -13,7 +13,7 @@ use super::sides::bounding;
 use super::stitch::stitch;
 use super::{Fallback, RemeshConfig, RepairError, RepairMethod, RepairReport, Repaired};
 use crate::arrangement::{Pairs, arrange};
-use crate::data::{Monitor, Sets, Shape, TriangleSoup};
+use crate::data::{Monitor, Parts, Sets, Shape, TriangleSoup};
 use crate::math::area_vector;
 use crate::winding::WindingField;
 
@@ -47,6 +47,8 @@ impl Default for ConserveConfig {
 /// Tolerances in diagonals, and in median edges how wide all but the first may be.
 const TOLERANCES: [f64; 4] = [1e-5, 1e-4, 3e-4, 1e-3];
 const OF_EDGE: f64 = 0.1;
+/// The part of the remaining progress that an attempt with a tolerance tells: mostly the first suffices.
+const ATTEMPT: f64 = 0.6;
 /// Times that what is open after splitting is closed and split again.
 const ROUNDS: usize = 3;
 /// A piece with less volume than this times its area to the power 3/2 is a sheet: a plate of that shape is 3e-6 as thick as it is wide.
@@ -64,10 +66,12 @@ pub fn conserve(
 ) -> Result<Repaired, RepairError> {
     let Shape::Soup(soup) = field.shape() else { return Err(RepairError::CloudConserved) };
     check(config)?;
+    let monitor = &Parts::new(monitor);
     let mut best: Option<Repaired> = None;
     let tolerances = tolerances(soup, config);
     for (k, tolerance) in tolerances.iter().enumerate() {
         let is_last = k + 1 == tolerances.len();
+        monitor.begin_attempt(ATTEMPT);
         let Some(made) = stitched(field, soup, *tolerance, is_last, config, monitor)? else { continue };
         let is_better = |best: &Repaired| made.report.agreement > best.report.agreement;
         if best.as_ref().is_none_or(is_better) {
@@ -81,12 +85,14 @@ pub fn conserve(
     match (lack_of(&result, config), &config.fallback) {
         (None, _) => Ok(result),
         (Some(fallback), Some(remeshing)) => {
+            monitor.begin_attempt(0.1);
             let (mut faces, mut report) = righted(soup, tolerances[0], monitor)?;
             if config.orient {
                 turn(&mut faces, &mut report, monitor)?;
             }
             let is_turned = report.flipped > 0;
             let rebuilt = is_turned.then(|| WindingField::new(faces.to_soup(), Default::default()));
+            monitor.begin_attempt(1.0);
             let mut made = remesh(rebuilt.as_ref().unwrap_or(field), remeshing, monitor)?;
             (made.report.fallback, made.report.flipped) = (Some(fallback), report.flipped);
             Ok(made)
@@ -115,17 +121,22 @@ fn stitched(
     config: &ConserveConfig,
     monitor: &dyn Monitor,
 ) -> Result<Option<Repaired>, RepairError> {
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.1);
     let (mut faces, mut report) = righted(soup, tolerance, monitor)?;
     if !is_last && 2 * faces.open_edges() > faces.triangles.len() {
         return Ok(None);
     }
+    monitor.begin(0.1, 0.2);
     if config.orient {
         turn(&mut faces, &mut report, monitor)?;
     }
     let is_same = faces.triangles.len() == soup.len() && report == RepairReport::default();
     let rebuilt = (!is_same).then(|| WindingField::new(faces.to_soup(), Default::default()));
     let field = rebuilt.as_ref().unwrap_or(field);
+    monitor.begin(0.2, 0.5);
     close(&mut faces, Some(field), &mut report, monitor)?;
+    monitor.begin(0.5, 0.9);
     for _ in 0..ROUNDS {
         faces = resolved(&faces, &mut report, monitor)?;
         if net_edges(&faces.triangles).is_empty() {
@@ -136,6 +147,7 @@ fn stitched(
     report.closed = separate(&mut faces, &mut report);
     drop_sheets(&mut faces, &mut report);
     report.tolerance = tolerance;
+    monitor.begin(0.9, 1.0);
     finished(soup, &faces, report, field, monitor).map(Some)
 }
 

@@ -5,7 +5,7 @@ use super::distances::distances;
 use super::faces::Faces;
 use super::manifold::separate;
 use super::{RepairError, RepairMethod, RepairReport, Repaired};
-use crate::data::{Monitor, Shape, TriangleSoup, ascending};
+use crate::data::{Monitor, Parts, Shape, TriangleSoup, ascending};
 use crate::surface::{SurfaceConfig, extract};
 use crate::winding::WindingField;
 
@@ -27,6 +27,8 @@ pub struct RemeshConfig {
 
 /// Cells are halved below this agreement.
 const AGREEMENT: f64 = 0.97;
+/// The part of the remaining progress that cells of one size tell.
+const ATTEMPT: f64 = 0.6;
 
 impl RemeshConfig {
     pub const COARSEST: usize = 64;
@@ -55,6 +57,7 @@ pub fn remesh(
     config: &RemeshConfig,
     monitor: &dyn Monitor,
 ) -> Result<Repaired, RepairError> {
+    let monitor = &Parts::new(monitor);
     let longest = field.bounds().size().max_element();
     let Shape::Soup(input) = field.shape() else { return traced(field, config, config.spacing, monitor) };
     if config.spacing.is_some() || config.resolution.is_some() || longest == 0.0 {
@@ -65,6 +68,7 @@ pub fn remesh(
     loop {
         let finer = 0.5 * spacing;
         let is_last = finer < longest / RemeshConfig::FINEST as f64;
+        monitor.begin_attempt(if is_last { 1.0 } else { ATTEMPT });
         match traced(field, config, Some(spacing), monitor) {
             Err(RepairError::Empty) if !is_last => {}
             Ok(made) if !is_last && made.report.agreement < AGREEMENT => {}
@@ -88,16 +92,21 @@ fn traced(
         min_component: config.min_component,
         ..SurfaceConfig::default()
     };
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.5);
     let mesh = extract(field, &surface, monitor)?;
+    monitor.begin(0.5, 0.8);
     if mesh.triangles.is_empty() {
         return Err(RepairError::Empty);
     }
     let mut found = RepairReport::default();
     let soup = untangled(TriangleSoup::from(mesh), &mut found, monitor)?;
+    monitor.begin(0.8, 0.95);
     let measured = match (field.shape(), spacing) {
         (Shape::Soup(input), Some(spacing)) => Some(distances(&soup, input, field, spacing, monitor)?),
         _ => None,
     };
+    monitor.begin(0.95, 1.0);
     let report = RepairReport {
         method: RepairMethod::Remesh,
         new: soup.len(),

@@ -12,7 +12,7 @@ mod trim;
 pub use level::suggested_level;
 pub use offset::{Drain, HollowConfig, OffsetConfig, OffsetError, hollow, offset};
 
-use crate::data::{Cancelled, LatticeError, Monitor, Shape, SurfaceMesh};
+use crate::data::{Cancelled, LatticeError, Monitor, Parts, Shape, SurfaceMesh};
 use crate::levelset::{TraceError, cells_of_points, cells_of_shape, trace_surface};
 use crate::math::Vec3;
 use crate::winding::{FieldError, WindingField};
@@ -107,6 +107,9 @@ impl From<Cancelled> for SurfaceError {
     }
 }
 
+/// The parts of the progress that are told before cells are looked for, and when these are traced, if sharp edges follow.
+const PREPARED: f64 = 0.05;
+const TRACED: f64 = 0.6;
 const HALF: f64 = 0.5;
 /// A surface that is not trimmed gets no level nearer to 0 than that unless it is asked for: w falls off with the square of the
 /// distance, so that the level set of 0.1 of a flat square is a bubble as large as that, and those of smaller ones grow beyond bounds.
@@ -130,6 +133,8 @@ pub fn extract(
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, SurfaceError> {
     check(field.shape(), config)?;
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, PREPARED);
     let (grid, blur) = grid(field, config, monitor)?;
     let level = match (config.level, field.shape()) {
         (Some(level), _) => level,
@@ -143,12 +148,15 @@ pub fn extract(
         return Err(SurfaceError::BadLevel(level));
     }
     let limits = config.sharp.map(Limits::new);
+    let traced = if limits.is_some() { TRACED } else { 1.0 };
+    monitor.begin(PREPARED, traced);
     let mut mesh = match field.shape() {
         Shape::Soup(soup) => {
             field.prepare_single_points();
             let seeds = cells_of_shape(field.shape(), grid.origin, Vec3::splat(grid.spacing));
             let mut mesh = trace_surface(&grid, &seeds, &Sides { field, level }, monitor)?;
             if let Some(limits) = limits {
+                monitor.begin(traced, 1.0);
                 let evidence =
                     OfSoup { soup, field, level, bvh: tree_of(soup), spacing: grid.spacing, limits };
                 sharpen(&mut mesh, &evidence, grid.spacing, limits, monitor)?;
@@ -161,6 +169,7 @@ pub fn extract(
             let samples = Samples { field, level, reach: reach.as_ref(), spacing: grid.spacing, blur };
             let mut mesh = trace_surface(&grid, &seeds, &samples, monitor)?;
             if let Some(limits) = limits {
+                monitor.begin(traced, 1.0);
                 let evidence = OfCloud { cloud, points: Points::new(cloud.points()), limits };
                 sharpen(&mut mesh, &evidence, grid.spacing, limits, monitor)?;
             }

@@ -4,6 +4,7 @@ use super::handle::Handle;
 use super::job::Job;
 use super::printing::{known, plain};
 use crate::check::{CheckConfig, CheckError, check};
+use crate::data::Monitor;
 use crate::orient::{FaceConfig, orient_soup};
 use js_sys::{Array, Object, Reflect, Uint32Array};
 use wasm_bindgen::prelude::*;
@@ -24,18 +25,18 @@ const INDEX_LISTS: [&str; 12] = [
     "overhangs.faces",
 ];
 
-#[wasm_bindgen]
 impl Handle {
-    /// What is wrong with a soup: a [`crate::check::CheckReport`], lists of indices as arrays of numbers, two for each edge and pair.
-    ///
-    /// # Errors
-    /// If and only if this is a cloud, an option is out of range, memory does not suffice or the call is aborted.
-    pub fn check(&mut self, options: JsValue, job: &Job) -> Result<JsValue, JsValue> {
-        let config: CheckConfig = known(options)?;
+    /// What [`Handle::check`] gives, as a part of another call.
+    pub(super) fn checked(
+        &mut self,
+        config: &CheckConfig,
+        job: &Job,
+        monitor: &dyn Monitor,
+    ) -> Result<JsValue, JsValue> {
         if self.soup().is_none() {
             return Err(Failure::invalid("a cloud has no faces to check: only soups have").into());
         }
-        let report = check(self.field(None, job)?, &config, job).map_err(Failure::from)?;
+        let report = check(self.field(None, job)?, config, monitor).map_err(Failure::from)?;
         let result = plain(&report)?;
         for path in INDEX_LISTS {
             let defects =
@@ -49,6 +50,17 @@ impl Handle {
             flatten(&one, "vertices")?;
         }
         Ok(result)
+    }
+}
+
+#[wasm_bindgen]
+impl Handle {
+    /// What is wrong with a soup: a [`crate::check::CheckReport`], lists of indices as arrays of numbers, two for each edge and pair.
+    ///
+    /// # Errors
+    /// If and only if this is a cloud, an option is out of range, memory does not suffice or the call is aborted.
+    pub fn check(&mut self, options: JsValue, job: &Job) -> Result<JsValue, JsValue> {
+        self.checked(&known(options)?, job, job)
     }
 
     /// Turns the faces of a soup outward: `{ flipped, patches, closedPatches, oneSidedPatches, method }`. The field of before is gone.

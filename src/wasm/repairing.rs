@@ -4,6 +4,8 @@ use super::handle::Handle;
 use super::job::Job;
 use super::options::from_js;
 use super::printing::plain;
+use crate::check::CheckConfig;
+use crate::data::Parts;
 use crate::repair::{ConserveConfig, RemeshConfig, RepairError, Repaired, conserve, remesh};
 use js_sys::{Object, Uint32Array};
 use serde::Deserialize;
@@ -69,19 +71,24 @@ impl Handle {
         let is_cloud = self.soup().is_none();
         let method =
             options.method.unwrap_or(if is_cloud { MethodName::Remesh } else { MethodName::Conserve });
+        let is_checked = options.check != Some(false);
+        let monitor = &Parts::new(job);
+        monitor.begin(0.0, if is_checked { 0.7 } else { 1.0 });
         let field = self.field(None, job)?;
         let made = match method {
-            MethodName::Conserve => conserve(field, &options.conserving(), job),
-            MethodName::Remesh => remesh(field, &options.remeshing(), job),
+            MethodName::Conserve => conserve(field, &options.conserving(), monitor),
+            MethodName::Remesh => remesh(field, &options.remeshing(), monitor),
         };
         let Repaired { soup, sources, report } = made.map_err(Failure::from)?;
         let mut made = Handle::of_soup(soup, "repaired");
         let (mut before, mut after) = (JsValue::UNDEFINED, JsValue::UNDEFINED);
-        if options.check != Some(false) {
+        if is_checked {
             if !is_cloud {
-                before = self.check(JsValue::UNDEFINED, job)?;
+                monitor.begin(0.7, 0.85);
+                before = self.checked(&CheckConfig::default(), job, monitor)?;
             }
-            after = made.check(JsValue::UNDEFINED, job)?;
+            monitor.begin(0.85, 1.0);
+            after = made.checked(&CheckConfig::default(), job, monitor)?;
         }
         Ok(object([
             ("handle", made.into()),

@@ -6,7 +6,8 @@ use super::many::Many;
 use super::scan::{SLAB_PLANES, Scan, Slab};
 use super::soup_field::{FractionBy, SoupField, TIE};
 use crate::data::{
-    Cancelled, Lattice, Monitor, for_each_lattice_block, map_items, map_parts, map_tasks, set_bit, zeroed,
+    Cancelled, Lattice, Monitor, Parts, for_each_lattice_block, map_items, map_parts, map_tasks, set_bit,
+    zeroed,
 };
 use crate::math::Vec3;
 use crate::treecode::{DualAccuracy, LatticeTargets, Scratch};
@@ -167,14 +168,11 @@ impl SoupField {
     ) -> Result<(), FieldError> {
         let plane = lattice.counts[0] * lattice.counts[1];
         let start = planes.start * plane;
-        // Within a group of several its own progress would start again.
-        let before = planes.start as f64 / lattice.counts[2] as f64;
-        let is_all = planes.len() == lattice.counts[2];
-        let named = |fraction: f64, stage: &str| {
-            monitor.report(if is_all { fraction } else { before }, stage).is_ok()
-        };
+        let monitor = &Parts::new(monitor);
+        let of_all = |plane: usize| plane as f64 / lattice.counts[2] as f64;
+        monitor.begin(of_all(planes.start), of_all(planes.end));
         let stage = "inside test";
-        let least = self.least_crossings(lattice, planes.clone(), threshold, (stage, &named))?;
+        let least = self.least_crossings(lattice, planes.clone(), threshold, (stage, monitor))?;
         let fill = |slab: usize, counted: &Slab, bits: &mut [u8]| {
             let first = slab * SLAB_PLANES * plane;
             match &least {
@@ -202,9 +200,9 @@ impl SoupField {
             };
             self.on_surface(lattice, slab, counted).into_iter().map(decide).collect()
         };
-        let touching = for_each_slab(scan, planes, bits, 1, fill, stage, &named)?;
+        let touching = for_each_slab(scan, planes, bits, 1, fill, stage, monitor)?;
         touching.into_iter().for_each(|(index, inside)| set_bit(bits, index - start, inside));
-        monitor.report(if is_all { 1.0 } else { before }, stage)?;
+        monitor.report(1.0, stage)?;
         Ok(())
     }
 

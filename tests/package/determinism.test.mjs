@@ -15,6 +15,8 @@ const engines = {
   sync: () => sync.init(),
 };
 
+const SHIFT = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 2, 1, 1];
+
 /** Digests of every result that holds floats or classifications. */
 async function digests(fw) {
   const digest = (...arrays) => {
@@ -36,7 +38,21 @@ async function digests(fw) {
     results[`${kind}: layers`] = digest(...layers.flatMap((l) => l.polygons.flatMap((p) => [p.outer, ...p.holes])));
     const mesh = await shape.surface({ resolution: 24 });
     results[`${kind}: surface`] = digest(mesh.positions, mesh.normals, mesh.indices);
+    results[`${kind}: distances`] = digest(await shape.signedDistance(queries));
+    const grown = await shape.offset({ distance: 2, resolution: 32 });
+    results[`${kind}: offset`] = digest(grown.positions, grown.indices);
+    const remade = await (await shape.repair({ method: 'remesh', resolution: 32, check: false })).soup.geometry();
+    results[`${kind}: remade`] = digest(remade.positions, remade.indices);
   }
+  for (const [name, other] of Object.entries({ soup, cloud })) {
+    const joined = await soup.boolean('union', other, { transform: SHIFT, resolution: 24 });
+    const { positions: places, indices: corners } = await joined.soup.geometry();
+    results[`union of soup and ${name}`] = digest(places, corners, joined.faces, joined.operands);
+  }
+  const kept = await (await soup.repair({ check: false })).soup.geometry();
+  results['repaired'] = digest(kept.positions, kept.indices);
+  results['checked'] = digest(new TextEncoder().encode(JSON.stringify(await soup.check())));
+  results['oriented'] = digest((await soup.orient()).flipped);
   const { normals, areas } = await cloud.geometry();
   results['estimates'] = digest(normals, areas);
   return results;

@@ -14,7 +14,7 @@ mod sides;
 
 pub use result::BooleanMesh;
 
-use crate::data::{Cancelled, LatticeError, Monitor, OutOfMemory, SoupError, Warning, WarningKind};
+use crate::data::{Cancelled, LatticeError, Monitor, OutOfMemory, Parts, SoupError, Warning, WarningKind};
 use crate::levelset::TraceError;
 use crate::winding::{FieldError, WindingField};
 use operands::{Operand, Pieces};
@@ -117,14 +117,20 @@ pub fn boolean(
     if let Some(tolerance) = config.tolerance.filter(|t| !(t.is_finite() && *t > 0.0)) {
         return Err(BooleanError::BadTolerance(tolerance));
     }
+    let monitor = &Parts::new(monitor);
     monitor.report(0.0, "operands")?;
+    monitor.begin(0.0, 0.1);
     let operands = [Operand::new(a, config, monitor)?, Operand::new(b, config, monitor)?];
     let mut warnings = warnings(&operands);
+    // Cutting and keeping is done once as a rule.
+    monitor.begin_attempt(0.9);
     let mut mesh = combine(&operands, op, config, &mut warnings, monitor)?;
     if mesh.triangles.is_empty() {
         warnings.push(Warning::new(WarningKind::EmptyResult, 1));
     }
     mesh.warnings = warnings;
+    monitor.begin(0.0, 1.0);
+    monitor.report(1.0, "operands")?;
     Ok(mesh)
 }
 
@@ -133,7 +139,7 @@ fn combine(
     op: BooleanOp,
     config: &BooleanConfig,
     warnings: &mut Vec<Warning>,
-    monitor: &dyn Monitor,
+    monitor: &Parts,
 ) -> Result<BooleanMesh, BooleanError> {
     if operands[0].soup() == operands[1].soup() {
         return Ok(match op {
@@ -143,6 +149,7 @@ fn combine(
     }
     let mut tried = trimmed(operands, op, config, monitor)?;
     if operands.iter().all(|o| o.field().is_closed()) && tried.is_torn() {
+        monitor.begin_attempt(0.5);
         let resolved = resolved(operands, op, monitor)?;
         if !resolved.is_torn() {
             warnings.push(Warning::new(WarningKind::SelfCrossing, 1));
@@ -150,8 +157,10 @@ fn combine(
         } else {
             // Surfaces that nearly coincide: on a grid they do so, or are clearly apart.
             let snapped = operands::snapped(operands)?;
+            monitor.begin_attempt(0.5);
             let mut again = trimmed(&snapped, op, config, monitor)?;
             if again.is_torn() {
+                monitor.begin_attempt(0.9);
                 again = self::resolved(&snapped, op, monitor)?;
             }
             warnings.push(Warning::new(WarningKind::SnappedOperands, 1));
@@ -185,22 +194,29 @@ fn trimmed(
     config: &BooleanConfig,
     monitor: &dyn Monitor,
 ) -> Result<Trimmed, BooleanError> {
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.4);
     let mut pieces = Pieces::cut(operands, false, monitor)?;
     for of in [0, 1] {
         let field = operands[1 - of].field();
+        monitor.begin(0.4 + 0.25 * of as f64, 0.65 + 0.25 * of as f64);
         if !field.is_closed() {
             let diagonals = operands.each_ref().map(|o| o.field().bounds().diagonal());
             let step = config.tolerance.unwrap_or(diagonals[0].min(diagonals[1]) / STEPS);
             level::cut(&mut pieces, of, field, step, monitor)?;
         }
     }
+    monitor.begin(0.9, 1.0);
     let fates = keep::by_regions(&pieces, operands, op, monitor)?;
     Ok(Trimmed { pieces, fates })
 }
 
 /// All triangles cut along each other, and what bounds the result kept.
 fn resolved(operands: &[Operand; 2], op: BooleanOp, monitor: &dyn Monitor) -> Result<Trimmed, BooleanError> {
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, 0.6);
     let pieces = Pieces::cut(operands, true, monitor)?;
+    monitor.begin(0.6, 1.0);
     let fates = sides::keep(&pieces, operands, op, monitor)?;
     Ok(Trimmed { pieces, fates })
 }

@@ -1,6 +1,6 @@
 //! Signed distances at all samples of a lattice.
 use super::{DistanceConfig, DistanceError, DistanceSign, SignedDistance, hard, smooth};
-use crate::data::{Grid, Lattice, Monitor, map_tasks, zeroed};
+use crate::data::{Grid, Lattice, Monitor, Parts, map_tasks, zeroed};
 use crate::distance::Search;
 use crate::winding::Accuracy;
 use std::ops::Range;
@@ -10,6 +10,8 @@ const WIDTH: usize = 4;
 /// Strips between two reports.
 const STRIPS_PER_REPORT: usize = 64;
 const HALF: f64 = 0.5;
+/// The part of the progress that signing tells, which comes first.
+const SIGNED: f64 = 0.4;
 
 /// Layers of a lattice, and their values, x fastest.
 pub type Slab<'a> = dyn FnMut(Range<usize>, &[f32]) + 'a;
@@ -50,6 +52,9 @@ impl SignedDistance<'_> {
         if lattice.is_empty() {
             return Ok(());
         }
+        let monitor = &Parts::new(monitor);
+        let signed_at = if config.sign == DistanceSign::None { 0.0 } else { SIGNED };
+        monitor.begin(0.0, signed_at);
         let (mut bits, mut winding) = (Vec::new(), Vec::new());
         match config.sign {
             DistanceSign::None => {}
@@ -58,6 +63,7 @@ impl SignedDistance<'_> {
                 winding = self.field.evaluate_lattice(lattice, Accuracy::default(), monitor)?.values;
             }
         }
+        monitor.begin(signed_at, 1.0);
         let signed = |index: usize, distance: f64| match config.sign {
             DistanceSign::None => distance,
             DistanceSign::Hard => hard(distance, bits[index / 8] >> (index % 8) & 1 == 1),

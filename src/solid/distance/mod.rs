@@ -6,7 +6,7 @@
 mod lattice;
 
 use crate::bvh::{morton_code, sorted_codes};
-use crate::data::{Cancelled, Monitor, OutOfMemory, fill_blocks, map_items, zeroed};
+use crate::data::{Cancelled, Monitor, OutOfMemory, Parts, fill_blocks, map_items, zeroed};
 use crate::distance::{Closest, DistanceTree, Search};
 use crate::math::{Aabb, Vec3};
 use crate::winding::{Accuracy, FieldError, WindingField};
@@ -14,6 +14,8 @@ use std::sync::Arc;
 
 pub use lattice::Slab;
 
+/// The part of the progress that measuring tells; signing tells the rest.
+const MEASURED: f64 = 0.7;
 /// Places that make a task: one after the other along a curve, each search begins near where the last one ended.
 const RUN: usize = 256;
 /// Places from which on they are sorted along a curve.
@@ -132,6 +134,8 @@ impl<'a> SignedDistance<'a> {
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, DistanceError> {
         let band = self.check(config)?;
+        let monitor = &Parts::new(monitor);
+        monitor.begin(0.0, if config.sign == DistanceSign::None { 1.0 } else { MEASURED });
         let (order, sorted) = along_a_curve(points);
         let mut found = zeroed(points.len())?;
         let measure = |first: usize, found: &mut [f64], search: &mut Search| {
@@ -141,6 +145,7 @@ impl<'a> SignedDistance<'a> {
             }
         };
         fill_blocks(&mut found, RUN, measure, "distances", monitor)?;
+        monitor.begin(MEASURED, 1.0);
         match config.sign {
             DistanceSign::None => {}
             DistanceSign::Hard => {
@@ -165,6 +170,8 @@ impl<'a> SignedDistance<'a> {
         monitor: &dyn Monitor,
     ) -> Result<Vec<SignedClosest>, DistanceError> {
         self.check(&DistanceConfig::default())?;
+        let monitor = &Parts::new(monitor);
+        monitor.begin(0.0, MEASURED);
         let (order, sorted) = along_a_curve(points);
         let mut found = zeroed(points.len())?;
         let measure = |first: usize, found: &mut [SignedClosest], search: &mut Search| {
@@ -176,6 +183,7 @@ impl<'a> SignedDistance<'a> {
             }
         };
         fill_blocks(&mut found, RUN, measure, "distances", monitor)?;
+        monitor.begin(MEASURED, 1.0);
         let inside = self.field.contains(&sorted, monitor)?;
         for ((found, place), inside) in found.iter_mut().zip(&sorted).zip(inside) {
             found.signed = hard(found.closest.distance, inside);

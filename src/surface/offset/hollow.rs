@@ -2,7 +2,7 @@
 use super::cylinder::Cylinder;
 use super::region::{Kept, Region};
 use super::{OffsetError, bounds_of, spacing, surface_of};
-use crate::data::{Monitor, SurfaceMesh, TriangleSoup, fill_in_blocks};
+use crate::data::{Monitor, Parts, SurfaceMesh, TriangleSoup, fill_in_blocks};
 use crate::distance::{DistanceTree, Search};
 use crate::math::Vec3;
 use crate::surface::{SurfaceConfig, check_sharp, extract};
@@ -66,9 +66,11 @@ pub fn hollow(
     for (number, drain) in config.drains.iter().enumerate() {
         check(number, drain, spacing)?;
     }
+    let monitor = &Parts::new(monitor);
     let closed = match field.is_closed() {
         true => None,
         false => {
+            monitor.begin(0.0, 0.3);
             let config =
                 SurfaceConfig { spacing: Some(spacing), sharp: config.sharp, ..SurfaceConfig::default() };
             let mesh = TriangleSoup::from(extract(field, &config, monitor)?);
@@ -82,7 +84,9 @@ pub fn hollow(
         let cylinder = cylinder_of(&region, drain, thickness).ok_or(OffsetError::DrainMisses(number))?;
         region.drains.push(cylinder);
     }
+    monitor.begin(if closed.is_some() { 0.3 } else { 0.0 }, 0.95);
     let mesh = surface_of(&region, bounds_of(field)?, config.sharp, monitor)?;
+    monitor.begin(0.95, 1.0);
     if region.drains.is_empty() && !has_cavity(&region, &mesh, thickness, monitor)? {
         return Err(OffsetError::NoCavity(thickness));
     }
