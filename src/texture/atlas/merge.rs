@@ -25,7 +25,8 @@ pub fn merge(faces: &Faces, found: &mut Segments, limit: f64) {
                 let moved = std::mem::take(&mut of[j]);
                 moved.iter().for_each(|t| found.charts[*t as usize] = one);
                 of[i].extend(moved);
-                normals[i] += normals[j];
+                let both = normals[i] + normals[j];
+                normals[i] = both;
                 (is_changed[i], is_changed[j], any) = (true, true, true);
             }
         }
