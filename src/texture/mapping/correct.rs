@@ -131,7 +131,7 @@ impl<'a> Charts<'a> {
         let Some(rest) = Rest::new(corners) else { return false };
         let [large, small] = polar(rest.jacobian(uv)).0.map(|s| s / self.atlas.scale);
         let area = large * small;
-        large > SQUASHED * small || area > SQUASHED || area < 1.0 / SQUASHED
+        large > SQUASHED * small || !(1.0 / SQUASHED..=SQUASHED).contains(&area)
     }
 
     /// The triangle as it is in space, turned by the least angle into the plane of the face that its first corner corresponds to, and

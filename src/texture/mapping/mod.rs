@@ -100,7 +100,7 @@ fn report(
     };
     let is_torn = |(t, placed): (usize, &Placed)| {
         let ratio = placed.area_ratio(soup.corners(t), atlas.scale);
-        ratio.is_some_and(|r| r > MappingReport::TORN || r < 1.0 / MappingReport::TORN)
+        ratio.is_some_and(|r| !(1.0 / MappingReport::TORN..=MappingReport::TORN).contains(&r))
     };
     let distortion = distortion(placed.iter().enumerate().map(|(t, p)| (soup.corners(t), p.uv)));
     let mut found = MappingReport {
