@@ -2,17 +2,10 @@ import { download, stem } from '../download.ts';
 import { glbOf } from '../glb.ts';
 import type { Page } from '../page.ts';
 import { checker, encoded, readPicture } from '../picture.ts';
-import type { Picture } from '../picture.ts';
-import type { State } from '../state.ts';
 import { fail } from './fail.ts';
 
 export const TEXTURE_FORMATS = { glb: 'GLB', zip: 'OBJ + MTL' } as const;
 export type TextureFormat = keyof typeof TEXTURE_FORMATS;
-
-/** What the texture shows. */
-export function pictureOf({ picture }: State): Picture {
-  return picture ?? checker();
-}
 
 /** Takes an image for the texture; what is none is told. */
 export async function takePicture(page: Page, file: File): Promise<void> {
@@ -31,7 +24,7 @@ export async function saveTexture(page: Page, format: TextureFormat): Promise<vo
   if (!model || !texture) return;
   const name = `${stem(model.name)}-textured`;
   try {
-    const picture = await encoded(pictureOf(page.store.state));
+    const picture = await encoded(page.store.state.picture ?? checker());
     if (format === 'glb') return download(await glbOf(texture.value.soup, picture, name), `${name}.glb`, 'model/gltf-binary');
     const { obj, mtl } = await texture.value.handle.export('obj', { name, image: `${name}.${picture.extension}` });
     const { zipSync } = await import('three/examples/jsm/libs/fflate.module.js');

@@ -1,7 +1,7 @@
 import type { ProxyGeometry } from 'fast-winding';
-import { pictureOf } from '../actions/picture.ts';
 import { byId, token } from '../dom.ts';
 import { count, plural } from '../format.ts';
+import { checker } from '../picture.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
 import { hueOf, outlinesOf } from '../texture.ts';
@@ -27,7 +27,7 @@ export function atlasView(store: Store<State>): void {
 
 function draw(context: CanvasRenderingContext2D, side: number, proxy: ProxyGeometry, state: State): void {
   context.clearRect(0, 0, side, side);
-  context.drawImage(pictureOf(state).canvas, 0, 0, side, side);
+  context.drawImage((state.picture ?? checker()).canvas, 0, 0, side, side);
   if (state.visible.proxy) tint(context, side, proxy);
   const outline = outlinesOf(proxy);
   const path = new Path2D();

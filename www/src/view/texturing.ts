@@ -1,5 +1,5 @@
 import type { BufferGeometry, Mesh, MeshStandardMaterial, Object3D, Plane } from 'three';
-import { pictureOf } from '../actions/picture.ts';
+import { checker } from '../picture.ts';
 import type { Item, State } from '../state.ts';
 import type { Store } from '../store.ts';
 import { Flow } from './flow.ts';
@@ -56,9 +56,8 @@ export class TexturingView {
   }
 
   #showTextured(): void {
-    const { state } = this.#store;
-    const { texture } = state;
-    this.#parts.textured.replace(...(texture ? [texturedMesh(texture.value.soup, pictureOf(state), this.#surroundings)] : []));
+    const { texture, picture } = this.#store.state;
+    this.#parts.textured.replace(...(texture ? [texturedMesh(texture.value.soup, picture ?? checker(), this.#surroundings)] : []));
     this.#stage.draw();
   }
 
