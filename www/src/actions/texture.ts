@@ -88,10 +88,11 @@ export async function markSeam(page: Page, vertex: number): Promise<void> {
   const { texture, seamStart } = store.state;
   if (!texture) return;
   if (seamStart === undefined || seamStart === vertex) return store.set({ seamStart: seamStart === undefined ? vertex : undefined });
+  // What is marked meanwhile begins another one.
+  store.set({ seamStart: undefined });
   try {
     const chain = await texture.value.handle.seam(seamStart, vertex);
-    if (store.state.texture !== texture) return;
-    store.set({ seams: [...store.state.seams, { from: seamStart, to: vertex, chain }], seamStart: undefined });
+    if (store.state.texture === texture) store.set({ seams: [...store.state.seams, { from: seamStart, to: vertex, chain }] });
   } catch (error) {
     await fail(page, 'No seam leads there', error);
   }

@@ -54,6 +54,8 @@ export class Marking {
   /** The corner of the triangle under a pixel that is next to it, or the end of a seam that is close by. */
   #vertexAt(pixel: Vector2, { mesh, proxy, origin, seams, start }: Markable): number | undefined {
     const { canvas, camera } = this.#stage;
+    // The camera may have turned since the last frame.
+    camera.updateMatrixWorld();
     const ray = new Raycaster();
     ray.setFromCamera(new Vector2((2 * pixel.x) / canvas.clientWidth - 1, 1 - (2 * pixel.y) / canvas.clientHeight), camera);
     const hit = ray.intersectObject(mesh, false)[0];
@@ -63,7 +65,7 @@ export class Marking {
       const { x, y } = place(vertex).project(camera);
       return new Vector2(((x + 1) / 2) * canvas.clientWidth, ((1 - y) / 2) * canvas.clientHeight);
     };
-    // Those behind the proxy are as far from the camera as the place under the pixel is not.
+    // One on the far side of the proxy is not as far from the camera as what is under the pixel.
     const reach = hit.distance * 0.02;
     const ends = seams.flatMap(({ from, to }) => [from, to]).concat(start ?? []);
     const close = ends.filter((vertex) => onScreen(vertex).distanceTo(pixel) <= SNAP_PIXELS && Math.abs(place(vertex).distanceTo(camera.position) - hit.distance) < reach);
