@@ -12,6 +12,7 @@
 
 pub mod arrangement;
 pub mod bvh;
+pub mod charge;
 pub mod check;
 pub mod data;
 pub mod distance;
@@ -27,6 +28,7 @@ pub mod repair;
 pub mod slice;
 pub mod solid;
 pub mod surface;
+pub mod texture;
 pub mod treecode;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;

@@ -3,12 +3,14 @@ import type { CheckOptions, CheckReport, FaceOrientOptions, OrientedFaces } from
 import type { Distances, HollowOptions } from './distance-api.js';
 import type { GCode, PrinterProfile, RequiredProfile, ToolpathSettings, Toolpaths } from './print-api.js';
 import type { RemeshOptions, Repaired, RepairOptions } from './repair-api.js';
+import type { TexturedSoup } from './texture-api.js';
 import type { VoxelFunctions, VoxelMethodOptions, VoxelShape } from './voxels-api.js';
 export type * from './boolean-api.js';
 export type * from './check-api.js';
 export type * from './distance-api.js';
 export type * from './print-api.js';
 export type * from './repair-api.js';
+export type * from './texture-api.js';
 export type * from './voxels-api.js';
 
 /** Options of `init`. The same options give the same engine; other options another one. */
@@ -253,7 +255,7 @@ export interface Shape extends VoxelShape, Distances {
 }
 
 /** Triangles without any promise about how they fit together. */
-export interface Soup extends Shape {
+export interface Soup extends Shape, TexturedSoup {
   readonly kind: 'soup';
   /** The triangles as they are. */
   geometry(): Promise<{ positions: Float32Array; indices: Uint32Array; origin: Float64Array }>;

@@ -1,8 +1,8 @@
 // The page's side: one call at a time goes to the worker, the others wait here, where they can still be withdrawn.
 import type { CallOptions, Info, OrientOptions } from './api.js';
 import { WindingError } from './error.js';
+import type { Caller } from './held.js';
 import type { FromWorker, Platform, Port, Ready, Request, StartMessage } from './protocol.js';
-import type { Caller } from './shapes.js';
 import { Sources } from './sources.js';
 
 interface Task {

@@ -1,5 +1,5 @@
 import { placeMore } from './more.js';
-import type { Handle, Job } from './single/fast_winding.js';
+import type { Handle, Job, TextureHandle } from './single/fast_winding.js';
 import type { Request } from './protocol.js';
 
 /** The module that wasm-bindgen makes: the same for both builds as far as it is used here. */
@@ -21,7 +21,7 @@ const FUNCTIONS = {
 } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', 'boolean', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', 'boolean', 'texture', 'suggestOffset', ...Object.keys(FUNCTIONS)];
 
 /** Ways of making voxels that take it. */
 const VOXELS_BY_MORE = ['continuation', 'rays', 'fast', 'cloud'];
@@ -48,10 +48,10 @@ class Rising {
   }
 }
 
-/** The shapes of one instance of the WebAssembly, and the calls to them. */
+/** The shapes and textures of one instance of the WebAssembly, and the calls to them. */
 export class Engine {
   readonly job: Job;
-  private readonly handles = new Map<number, Handle>();
+  private readonly handles = new Map<number, Handle | TextureHandle>();
 
   constructor(private readonly glue: Glue) {
     this.job = new glue.Job();
@@ -70,7 +70,9 @@ export class Engine {
     }
     if (method === 'parse' || method === 'cloud') return (args.at(-1) as { orient?: string } | undefined)?.orient !== undefined;
     if (BY_MORE.includes(method) || (method === 'export' && args[0] === '3mf')) return true;
-    return !WITHOUT_FIELD.includes(method) && (this.handles.get(handle)?.isRaw() ?? false);
+    const held = this.handles.get(handle);
+    if (held instanceof this.glue.TextureHandle) return true;
+    return !WITHOUT_FIELD.includes(method) && (held?.isRaw() ?? false);
   }
 
   /** Runs one call. Throws what the WebAssembly throws. */
@@ -88,16 +90,16 @@ export class Engine {
     if (method in FUNCTIONS) return this.runFunction(method as keyof typeof FUNCTIONS, args);
     if (method in MAKERS) return this.make(MAKERS[method as keyof typeof MAKERS], handle, args);
     if (method === 'free') return this.free(handle);
-    const shape = this.handles.get(handle);
-    if (!shape) throw { code: 'Freed', message: 'this shape was freed', details: {} };
-    if (method === 'boolean') return this.combine(shape, args);
-    const call = shape[method as keyof Handle] as (...args: unknown[]) => unknown;
-    const value = call.apply(shape, [...args, this.job]);
-    return makes === undefined ? value : this.keep(makes, value as { handle: Handle });
+    const held = this.handles.get(handle);
+    if (!held) throw { code: 'Freed', message: 'this was freed', details: {} };
+    if (method === 'boolean') return this.combine(held as Handle, args);
+    const call = held[method as keyof typeof held] as (...args: unknown[]) => unknown;
+    const value = call.apply(held, [...args, this.job]);
+    return makes === undefined ? value : this.keep(makes, value as { handle: Handle | TextureHandle });
   }
 
-  /** Keeps a shape that came of another, and describes it in its place. */
-  private keep(id: number, { handle, ...rest }: { handle: Handle }): unknown {
+  /** Keeps a shape or a texture that came of a shape, and describes it in its place. */
+  private keep(id: number, { handle, ...rest }: { handle: Handle | TextureHandle }): unknown {
     this.handles.set(id, handle);
     return { ...rest, shape: handle.describe() };
   }
@@ -116,7 +118,7 @@ export class Engine {
 
   /** The other operand comes as the number of its handle, and how it is moved. */
   private combine(shape: Handle, [operation, other, transform, options]: unknown[]): unknown {
-    const second = this.handles.get(other as number);
+    const second = this.handles.get(other as number) as Handle | undefined;
     if (!second) throw { code: 'Freed', message: 'the other shape was freed', details: {} };
     return shape.boolean(operation as string, second.operand(transform, this.job), options, this.job);
   }

@@ -26,7 +26,8 @@ export interface ErrorData {
 /**
  * The one error class of this package. `details` by code: `ParseError` { format, byte | line, expected },
  * `NonFiniteVertex` { vertex }, `IndexOutOfRange` { triangle, index, vertices }, `OutOfMemory` { bytes },
- * `Aborted` { reason }. `EmptyResult` says that nothing is left of a shape, or no cavity. `DoesNotFit` says that a print is larger than its printer, or off its bed.
+ * `Aborted` { reason }. `EmptyResult` says that nothing is left of a shape, or no cavity. `DoesNotFit` says that a print is larger than its printer, or off its bed,
+ * or that the charts of a texture and their margins do not fit into its texels.
  */
 export class WindingError extends Error {
   readonly code: ErrorCode;

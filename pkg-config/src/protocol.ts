@@ -4,10 +4,10 @@ import type { ErrorData } from './error.js';
 export interface Request {
   /** A method of the engine: see engine.ts. */
   method: string;
-  /** The shape it is about, or the name of the shape it makes: chosen by the client. */
+  /** The shape or the texture it is about, or the name of the shape it makes: chosen by the client. */
   handle: number;
   args: unknown[];
-  /** The name of a shape that is made of that one. */
+  /** The name of a shape or a texture that is made of that one. */
   makes?: number;
 }
 

@@ -1,38 +1,11 @@
 // Soups and clouds as the caller holds them. The same classes serve both entries: a caller that posts to a worker
 // answers with promises, one that runs the engine itself with values.
-import type { Accuracy, CallOptions, CloudArrays, Info, Layer, OrientOptions, ReadOptions, SoupArrays } from './api.js';
+import type { Accuracy, CallOptions, CloudArrays, Layer, OrientOptions, ReadOptions, SoupArrays } from './api.js';
 import { WindingError } from './error.js';
-import type { Description, Request } from './protocol.js';
-
-/** How calls are made: `R<T>` is a promise of T, or T. */
-export interface Caller {
-  readonly info: Info;
-  call(request: Request, options: OrientOptions | undefined): unknown;
-  /** Applies `f` to an answer of `call`. */
-  then(answer: unknown, f: (value: unknown) => unknown): unknown;
-  /** The items of the answers to calls for parts of a list of numbers, which is an answer too, `size` numbers to a part. */
-  each(list: unknown, size: number, ask: (part: Float64Array) => unknown): unknown;
-  /** Fails the way calls fail. */
-  fail(error: WindingError): unknown;
-  newHandle(): number;
-  dispose(): void;
-}
-
-/** Options without those that the client itself heeds. */
-function forEngine(options: object | undefined): unknown {
-  const { signal, onProgress, onNormals, transfer, ...rest } = (options ?? {}) as Record<string, unknown>;
-  return rest;
-}
-
-type View = Uint8Array | Uint32Array | Float32Array | Float64Array;
-
-/** The caller's numbers for the engine: a copy, or the caller's own buffer, which then becomes unusable for him. */
-function handOver<T extends View | ArrayBuffer | undefined>(data: T, transfer: boolean | undefined): T {
-  if (data instanceof ArrayBuffer) return (transfer ? structuredClone(data, { transfer: [data] }) : data.slice(0)) as T;
-  if (!ArrayBuffer.isView(data)) return data;
-  if (transfer && data.buffer instanceof ArrayBuffer) return structuredClone(data, { transfer: [data.buffer] });
-  return new (data.constructor as new (view: View) => View)(data) as T;
-}
+import { type Caller, Held, type View, forEngine, handOver } from './held.js';
+import type { Description } from './protocol.js';
+import type { TextureReport } from './texture-api.js';
+import { TextureOfSoup } from './textures.js';
 
 function asBytes(data: Uint8Array | ArrayBuffer, transfer: boolean | undefined): unknown {
   // Not a subclass such as Node's Buffer, which often lies in a pool shared with others.
@@ -43,36 +16,23 @@ function asBytes(data: Uint8Array | ArrayBuffer, transfer: boolean | undefined):
   return own instanceof ArrayBuffer ? new Uint8Array(own) : own;
 }
 
-const forgotten = new FinalizationRegistry<() => void>((free) => free());
-
 /** Numbers that describe a layer, and how many of them make a block that is sliced together. */
 const LAYERS_AT_ONCE = 3 * 64;
 
-class BaseShape {
+class BaseShape extends Held {
   readonly kind: 'soup' | 'cloud';
   readonly format: string;
   readonly warnings: Description['warnings'];
   readonly bounds: Description['bounds'];
   readonly count: number;
-  private isFreed = false;
 
-  constructor(
-    protected readonly caller: Caller,
-    protected readonly handle: number,
-    description: Description,
-  ) {
+  constructor(caller: Caller, handle: number, description: Description) {
+    super(caller, handle, description.kind);
     this.kind = description.kind;
     this.format = description.format;
     this.warnings = description.warnings;
     this.bounds = description.bounds;
     this.count = description.count;
-    forgotten.register(this, () => void caller.call({ method: 'free', handle, args: [] }, undefined), this);
-  }
-
-  protected ask(method: string, args: unknown[], options?: object, makes?: number): unknown {
-    if (this.isFreed) return this.caller.fail(new WindingError('Freed', `this ${this.kind} was freed`));
-    const request: Request = { method, handle: this.handle, args };
-    return this.caller.call(makes === undefined ? request : { ...request, makes }, options as CallOptions | undefined);
   }
 
   /** Asks for a soup that is made of this shape: the answer with it as `soup`. */
@@ -82,17 +42,6 @@ class BaseShape {
       const { shape, ...rest } = value as { shape: Description };
       return { soup: new SoupShape(this.caller, makes, shape), ...rest };
     });
-  }
-
-  free(): void {
-    if (this.isFreed) return;
-    void this.ask('free', []);
-    this.isFreed = true;
-    forgotten.unregister(this);
-  }
-
-  [Symbol.dispose](): void {
-    this.free();
   }
 
   prepare(options?: object): unknown {
@@ -147,6 +96,18 @@ class BaseShape {
 
   repair(options?: object): unknown {
     return this.derive('repair', [forEngine(options)], options);
+  }
+
+  texture(options?: object): unknown {
+    const makes = this.caller.newHandle();
+    return this.caller.then(this.ask('texture', [forEngine(options)], options, makes), (value) => {
+      const { shape: report } = value as { shape: TextureReport };
+      return new TextureOfSoup(this.caller, makes, report);
+    });
+  }
+
+  suggestOffset(options?: object): unknown {
+    return this.ask('suggestOffset', [forEngine(options)], options);
   }
 
   heatMap(options: object): unknown {

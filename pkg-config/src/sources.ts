@@ -1,8 +1,8 @@
 import type { Request } from './protocol.js';
 
-/** Whether a call changes what a shape is, and so must be repeated when it is rebuilt. */
+/** Whether a call changes what a shape or a texture is, and so must be repeated when it is rebuilt. */
 const changes = ({ method, args }: Request) =>
-  ['orient', 'orientFaces'].includes(method) ||
+  ['orient', 'orientFaces', 'remap'].includes(method) ||
   (method === 'prepare' && (args[0] as { bounded?: boolean } | undefined)?.bounded !== undefined);
 
 const MAKERS = new Set(['parse', 'soup', 'cloud']);
@@ -11,7 +11,7 @@ function bytesOf(args: unknown[]): number {
   return args.reduce<number>((sum, arg) => sum + (ArrayBuffer.isView(arg) ? arg.byteLength : 0), 0);
 }
 
-/** The calls that made the living shapes, so that a new worker can make them again. */
+/** The calls that made the living shapes and textures, so that a new worker can make them again. */
 export class Sources {
   private readonly requests = new Map<number, { place: number; request: Request }[]>();
   /** Of each shape that was made of another, that one. */

@@ -12,17 +12,20 @@ type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
 /** As in the other entry. */
 type Combine = (operation: api.BooleanOperation, other: Shape, options?: api.BooleanOptions) => api.BooleanResult<Soup>;
 
-export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | 'repair' | 'boolean' | keyof SyncDistances>, SyncDistances {
+export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | 'repair' | 'texture' | 'boolean' | keyof SyncDistances>, SyncDistances {
   boolean: Combine;
   /** As in the other entry. */
   toCloud(options?: Parameters<api.Soup['toCloud']>[0]): Cloud;
   repair(options?: api.RepairOptions): api.Repaired<Soup>;
+  texture(options?: api.TextureOptions): Texture;
 }
 export interface Cloud extends Omit<Synchronous<api.Cloud>, 'repair' | 'boolean' | keyof SyncDistances>, SyncDistances {
   boolean: Combine;
   repair(options?: api.RemeshOptions): api.Repaired<Soup>;
 }
 export type Shape = Soup | Cloud;
+/** A textured soup, as in the other entry. */
+export type Texture = Synchronous<api.Texture>;
 
 /** An engine that answers at once, on the thread that asks. */
 export interface FastWinding extends Omit<Synchronous<api.FastWinding>, 'open' | 'load' | 'Soup' | 'Cloud'> {

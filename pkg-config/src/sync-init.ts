@@ -2,8 +2,9 @@ import type { InitOptions, OrientOptions } from './api.js';
 import { provide, useMain } from './more.js';
 import { Engine } from './engine.js';
 import { WindingError, describeError } from './error.js';
+import type { Caller } from './held.js';
 import type { Request } from './protocol.js';
-import { type Caller, facade } from './shapes.js';
+import { facade } from './shapes.js';
 import { hasSimd } from './simd.js';
 import type { FastWinding } from './sync-api.js';
 

@@ -13,17 +13,18 @@ export const MORE = 'fast_winding_more.wasm';
 const IN_MORE = new RegExp(
   [
     String.raw`fast_winding\[[0-9a-f]+\]::(${[
-      String.raw`arrangement|check(?!::(boundary|components)\b)|distance|estimate|orient|polygon|print|repair|surface`,
-      'data::(bricks|topology)|bvh::(disc|first_hit|narrow|overlaps)|io::write::(dxf|json|nrrd|svg|threemf|vox)|io::threemf',
+      String.raw`arrangement|check(?!::(boundary|components)\b)|distance|estimate|orient|polygon|print|repair|surface|charge|texture`,
+      'data::(bricks|topology)|bvh::(disc|first_hit|narrow|overlaps)|io::write::(dxf|json|nrrd|svg|textured|threemf|vox)|io::threemf',
       'levelset::(cubes|cube_cases|bricks|blur|roots|sampling|squares)|math::(closest|ray|triangles_meet)',
       'solid::(boolean|continuation|difference|distance|voxel_surface)|treecode::mutual|winding::stab',
-      'wasm::(boolean|checking|distance|layers|printing|repairing|voxels)',
+      'wasm::(boolean|checking|distance|layers|printing|repairing|texture_options|texturing|voxels)',
     ].join('|')})::`,
     String.raw`fast_winding\[[0-9a-f]+\]::(slice::(?!heat_map)|solid::voxels::voxelize_(by_rays|bricks))`,
     String.raw`fast_winding\[[0-9a-f]+\]::(winding|treecode|wasm|data)::[\w:]+(<.*>)?>::(save|load)\b`,
     String.raw`\b(i_(overlay|float|shape|tree|key_sort)|spade)\[|\b(quick_xml|flate2|miniz_oxide|crc32fast)\[`,
     `^(toolpaths|gcode|printSettings|exportLayers?|exportVoxels|compareVoxels|voxelSurface)$`,
-    `^handle_(slice|layerSpans|surface|noise|save|voxelBricks|check|orientFaces|signedDistance|distanceLattice|closestPoints|offset|hollow|repair|boolean)$`,
+    `^handle_(slice|layerSpans|surface|noise|save|voxelBricks|check|orientFaces|signedDistance|distanceLattice|closestPoints|offset|hollow|repair|boolean|texture|suggestOffset)$`,
+    '^(__wbg_)?texturehandle_',
   ].join('|'),
 );
 

@@ -68,6 +68,18 @@ pub enum WarningKind {
     SnappedOperands,
     /// Faces whose pieces still cross, as coordinates are rounded.
     CrossingFaces,
+    /// The samples that a proxy's offset needs: it has fewer.
+    CoarseProxy,
+    /// Parts of a soup are farther apart than two offsets: its proxy has that many components.
+    SeveralProxies,
+    /// Field lines that meet no proxy: their starts are inside the shape, or buried in it. They got the nearest point.
+    LostLines,
+    /// Lines from a boundary that ran along the triangles: they got the direction of their neighbours.
+    TangentialLines,
+    /// Triangles in narrow places where the field is weak: a smaller offset would follow them closer.
+    WeakField,
+    /// Triangles whose texture is torn, folded or stretched.
+    BadTexture,
 }
 
 impl Warning {
@@ -135,6 +147,25 @@ impl fmt::Display for Warning {
                 write!(f, "surfaces nearly coincide: they were cut as if vertices lay on a fine grid")
             }
             WarningKind::CrossingFaces => write!(f, "pieces of {n} faces cross after rounding"),
+            WarningKind::CoarseProxy => {
+                write!(
+                    f,
+                    "the proxy has too few samples for its offset: {n} along the longest side are needed"
+                )
+            }
+            WarningKind::SeveralProxies => {
+                write!(f, "the proxy has {n} components: gaps are wider than two offsets")
+            }
+            WarningKind::LostLines => {
+                write!(f, "{n} field lines meet no proxy: their vertices got the nearest point of it")
+            }
+            WarningKind::TangentialLines => {
+                write!(f, "{n} field lines from a boundary got the direction of their neighbours")
+            }
+            WarningKind::WeakField => {
+                write!(f, "{n} triangles lie in narrow places: a smaller offset would follow them closer")
+            }
+            WarningKind::BadTexture => write!(f, "the texture of {n} triangles is torn, folded or stretched"),
         }
     }
 }

@@ -25,6 +25,7 @@ pub use write::{
     write_cloud, write_layer_svg, write_layers_3mf, write_layers_dxf, write_layers_json, write_layers_svg,
     write_nrrd, write_soup, write_vox,
 };
+pub use write::{write_material_library, write_textured_obj};
 
 use crate::data::{PointCloud, TriangleSoup, Warning};
 use std::fmt;

@@ -10,7 +10,7 @@ mod sides;
 mod trim;
 
 pub use level::suggested_level;
-pub use offset::{Drain, HollowConfig, OffsetConfig, OffsetError, hollow, offset};
+pub use offset::{Drain, HollowConfig, OffsetConfig, OffsetError, hollow, offset, two_sided_offset};
 
 use crate::data::{Cancelled, LatticeError, Monitor, Parts, Shape, SurfaceMesh};
 use crate::levelset::{TraceError, cells_of_points, cells_of_shape, trace_surface};

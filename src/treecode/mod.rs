@@ -16,6 +16,7 @@ pub use dual::{
     QueryGroup, SourceKind, Sources, Targets, groups_of, parts, relative,
 };
 pub use expansion::Order;
+pub use frame::Frame;
 pub use kernel::{Kernel, Lanes, Quadrature, direct_sums};
 pub use mutual::{Clustered, Mutual};
 pub use tree::{Scratch, Tree, TreeConfig};

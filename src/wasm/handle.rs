@@ -358,7 +358,7 @@ impl Handle {
         Ok(SignedDistance::with_tree(self.field(None, job)?, tree))
     }
 
-    pub(super) fn soup(&self) -> Option<&TriangleSoup> {
+    pub(super) fn soup(&self) -> Option<&Arc<TriangleSoup>> {
         match &self.source {
             Source::Soup(soup) => Some(soup),
             Source::Cloud { .. } => None,

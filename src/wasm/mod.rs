@@ -19,11 +19,14 @@ mod queries;
 mod repairing;
 mod results;
 mod saving;
+mod texture_options;
+mod texturing;
 mod voxels;
 
 pub use boolean::Operand;
 pub use handle::Handle;
 pub use job::Job;
+pub use texturing::TextureHandle;
 #[cfg(target_feature = "atomics")]
 pub use wasm_bindgen_rayon::init_thread_pool;
 

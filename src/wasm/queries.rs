@@ -27,7 +27,7 @@ impl Handle {
         field.prepare_points();
         let (report, bytes) = (field.report().clone(), field.bytes());
         let milliseconds = Date::now() - start;
-        let components = self.soup().map_or(0, check::components);
+        let components = self.soup().map_or(0, |soup| check::components(soup));
         Ok(object([
             ("milliseconds", milliseconds.into()),
             ("bytes", bytes.into()),

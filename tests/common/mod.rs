@@ -6,6 +6,7 @@ use fast_winding::math::{Aabb, Vec3, area_vector, barycentre};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};
 
+pub mod parts;
 pub mod prints;
 pub mod surfaces;
 

@@ -53,6 +53,9 @@ async function digests(fw) {
   results['repaired'] = digest(kept.positions, kept.indices);
   results['checked'] = digest(new TextEncoder().encode(JSON.stringify(await soup.check())));
   results['oriented'] = digest((await soup.orient()).flipped);
+  const texture = await (await fw.Soup.from(torus(24))).texture({ offset: 3, resolution: 40 });
+  const [textured, proxy, lines] = [await texture.geometry(), await texture.proxy(), await texture.lines()];
+  results['texture'] = digest(textured.uvs, textured.charts, proxy.positions, proxy.uvs, proxy.seams, lines.points);
   const { normals, areas } = await cloud.geometry();
   results['estimates'] = digest(normals, areas);
   return results;

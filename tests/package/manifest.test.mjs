@@ -60,8 +60,8 @@ test('a program that uses the types compiles, and one that misuses them does not
 
 test('the README’s examples run', () => {
   const examples = [...readFileSync(join(home, 'README.md'), 'utf8').matchAll(/```js\n([^]*?)```/g)].map((match) => match[1]);
-  assert.equal(examples.length, 5);
-  const [example, clouds, prints, solids, longCall] = examples;
+  assert.equal(examples.length, 6);
+  const [example, clouds, prints, solids, textures, longCall] = examples;
   const checks = `
     import assert from 'node:assert/strict';
     assert.deepEqual([inside, numbers.map(Math.round)], [new Uint8Array([1, 0]), new Float64Array([1])]);
@@ -69,9 +69,10 @@ test('the README’s examples run', () => {
     assert.deepEqual([report.verdict.rating, soup.count, wider.indices.length > 0, joined.operands.includes(1)], ['clean', 12, true, true]);
     assert.deepEqual([far[0] > 0, saved.length > 100], [true, true]);
     assert.deepEqual([noise.length, scan.hasNormals, skin.indices.length > 0, corners.count], [1000, true, true, 8]);
+    assert.deepEqual([uvs.length, threads.offsets.length > 8, chain.length > 5, files.obj.length > 100], [72, true, true, true]);
     process.exit(0);`;
   writeFileSync(join(folder, 'part.stl'), boxObj());
-  writeFileSync(join(folder, 'example.mjs'), example.replace('shape.free();', `${[clouds, prints, solids, longCall.replace('400', '40')].join('\n')}\nshape.free();${checks}`));
+  writeFileSync(join(folder, 'example.mjs'), example.replace('shape.free();', `${[clouds, prints, solids, textures, longCall.replace('400', '40')].join('\n')}\nshape.free();${checks}`));
   const output = execFileSync('node', ['example.mjs'], { cwd: folder, encoding: 'utf8', timeout: 60_000 });
   assert.match(output, /^soup 12 /);
   assert.match(output, /\n1000 normals\n/);

@@ -28,6 +28,11 @@ const ofSoups = {
   slice: (soup, options) => soup.slice({ layerHeight: 0.2, ...options }),
   surface: (soup, options) => soup.surface({ resolution: 96, ...options }),
 };
+const ofSmallSoups = {
+  texture: (soup, options) => soup.texture({ offset: 3, ...options }),
+  suggestOffset: (soup, options) => soup.suggestOffset(options),
+  remap: async (soup, options) => (await soup.texture({ offset: 3, steps: 10 })).remap({ offset: 2, ...options }),
+};
 const ofClouds = {
   prepare: (cloud, options) => cloud.prepare(options),
   voxelize: (cloud, options) => cloud.voxelize({ resolution: 64, ...options }),
@@ -41,6 +46,7 @@ const SHIFT = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 2, 1, 1];
 
 for (const [name, calls, shape] of [
   ['soups', ofSoups, (fw) => fw.Soup.from(openTorus())],
+  ['small soups', ofSmallSoups, (fw) => fw.Soup.from(torus(40))],
   ['clouds', ofClouds, (fw) => fw.Cloud.from(sphere(20_000, 10))],
   ['clouds without normals', ofUnorientedClouds, (fw) => fw.Cloud.from({ points: sphere(20_000, 10).points })],
 ]) {

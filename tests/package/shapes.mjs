@@ -31,6 +31,27 @@ export function sphere(count, radius) {
   return { points, normals };
 }
 
+/** The triangles of a sphere: 2 `n` around, `n` from pole to pole. */
+export function ball(n, radius) {
+  const positions = [0, 0, radius];
+  const indices = [];
+  for (let i = 1; i < n; i++) {
+    for (let j = 0; j < 2 * n; j++) {
+      const [polar, around] = [(Math.PI * i) / n, (Math.PI * j) / n];
+      positions.push(radius * Math.sin(polar) * Math.cos(around), radius * Math.sin(polar) * Math.sin(around), radius * Math.cos(polar));
+    }
+  }
+  positions.push(0, 0, -radius);
+  const at = (i, j) => (i === 0 ? 0 : i === n ? 1 + 2 * n * (n - 1) : 1 + 2 * n * (i - 1) + (j % (2 * n)));
+  for (let i = 0; i < n; i++) {
+    for (let j = 0; j < 2 * n; j++) {
+      if (i < n - 1) indices.push(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      if (i > 0) indices.push(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  return { positions: new Float64Array(positions), indices: new Uint32Array(indices) };
+}
+
 /** A soup of `n` × `n` × 2 triangles: a bumpy torus, for calls that take a while. */
 export function torus(n) {
   const positions = [];

@@ -7,6 +7,7 @@ mod off;
 mod ply;
 mod stl;
 mod svg;
+mod textured;
 mod threemf;
 mod vox;
 mod xyz;
@@ -15,6 +16,7 @@ pub use dxf::write_layers_dxf;
 pub use json::write_layers_json;
 pub use nrrd::{NrrdEncoding, write_nrrd};
 pub use svg::{write_layer_svg, write_layers_svg};
+pub use textured::{write_material_library, write_textured_obj};
 pub use threemf::{MeshResolution, SliceStackError, write_layers_3mf};
 pub use vox::{VoxContent, VoxError, write_vox};
 

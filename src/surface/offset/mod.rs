@@ -39,6 +39,8 @@ pub enum OffsetError {
     Surface(#[from] SurfaceError),
     #[error("a distance of {0} is not possible: it must be a finite number")]
     BadDistance(f64),
+    #[error("a distance of {0} has no two sides: a finite number above 0 is needed")]
+    BadTwoSidedDistance(f64),
     #[error("nothing is left at a distance of {0}: no cell of the shape is that deep inside")]
     NothingLeft(f64),
     #[error("walls cannot be {0} thick: a finite number above 0 is needed")]
@@ -93,15 +95,41 @@ pub fn offset(
     config: &OffsetConfig,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, OffsetError> {
-    let distance = config.distance;
-    if !distance.is_finite() {
-        return Err(OffsetError::BadDistance(distance));
+    if !config.distance.is_finite() {
+        return Err(OffsetError::BadDistance(config.distance));
     }
+    at_distance(field, Kept::UpTo(config.distance), config, monitor)
+}
+
+/// The surface {distance = d}, d > 0, whatever is inside: around sheets and closed shapes alike it has two sides, of which the inner one
+/// faces what is farther than d from all triangles or points and vanishes where nothing is. Otherwise as [`offset`].
+///
+/// # Errors
+/// As [`offset`], and if and only if the distance is not above 0.
+#[inline(never)]
+pub fn two_sided_offset(
+    field: &WindingField,
+    config: &OffsetConfig,
+    monitor: &dyn Monitor,
+) -> Result<SurfaceMesh, OffsetError> {
+    if !(config.distance.is_finite() && config.distance > 0.0) {
+        return Err(OffsetError::BadTwoSidedDistance(config.distance));
+    }
+    at_distance(field, Kept::Near(config.distance), config, monitor)
+}
+
+fn at_distance(
+    field: &WindingField,
+    kept: Kept,
+    config: &OffsetConfig,
+    monitor: &dyn Monitor,
+) -> Result<SurfaceMesh, OffsetError> {
+    let distance = config.distance;
     let bounds = bounds_of(field)?.padded(distance.max(0.0));
     let spacing = spacing(bounds, config.resolution, config.spacing)?;
     check_sharp(config.sharp)?;
     let tree = DistanceTree::new(field.shape());
-    let region = Region { field, tree, kept: Kept::UpTo(distance), drains: Vec::new(), spacing };
+    let region = Region { field, tree, kept, drains: Vec::new(), spacing };
     let mesh = surface_of(&region, bounds, config.sharp, monitor)?;
     if mesh.triangles.is_empty() { Err(OffsetError::NothingLeft(distance)) } else { Ok(mesh) }
 }

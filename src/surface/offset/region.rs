@@ -23,6 +23,8 @@ pub enum Kept {
     UpTo(f64),
     /// What is inside, no deeper than this.
     Shell(f64),
+    /// Where the distance, without a sign, is at most this.
+    Near(f64),
 }
 
 impl Kept {
@@ -32,6 +34,7 @@ impl Kept {
             Kept::UpTo(limit) if distance <= limit.abs() => {
                 Some(if limit < 0.0 { limit + distance } else { limit - distance })
             }
+            Kept::Near(limit) => Some(limit - distance),
             _ => None,
         }
     }
@@ -43,6 +46,7 @@ impl Kept {
             (Kept::UpTo(limit), false) => limit - distance,
             (Kept::Shell(depth), true) => distance.min(depth - distance),
             (Kept::Shell(_), false) => 0.0 - distance,
+            (Kept::Near(limit), _) => limit - distance,
         }
     }
 
@@ -51,7 +55,13 @@ impl Kept {
         match self {
             Kept::UpTo(limit) => limit < 0.0,
             Kept::Shell(_) => true,
+            Kept::Near(_) => false,
         }
+    }
+
+    /// Whether its surface away from the shape is on one side alone.
+    pub fn has_one_side(self) -> bool {
+        !matches!(self, Kept::Near(_))
     }
 
     /// Distances at which it begins or ends.
@@ -59,6 +69,7 @@ impl Kept {
         match self {
             Kept::UpTo(limit) => vec![limit.abs()],
             Kept::Shell(depth) => vec![0.0, depth],
+            Kept::Near(limit) => vec![limit],
         }
     }
 }
@@ -116,6 +127,7 @@ impl Region<'_> {
         let away = (q - found.point).normalize_or_zero();
         let is_outward = match self.kept {
             Kept::UpTo(limit) => limit >= 0.0,
+            Kept::Near(_) => true,
             // Its inner side faces what is deeper, its outer one is met from either side.
             Kept::Shell(depth) => {
                 found.distance > HALF * depth || !self.field.is_nearly_above(q, HALF, &mut probe.scratch)

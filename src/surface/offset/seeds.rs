@@ -77,7 +77,7 @@ fn kept(
     fill_blocks(&mut found, RUN, measure, "surface cells", &undetermined)?;
     let is_near = |distance: f64| levels.iter().any(|level| (distance - level).abs() <= radius);
     let mut is_kept: Vec<bool> = found.iter().map(|distance| is_near(*distance)).collect();
-    if region.field.is_closed() {
+    if region.field.is_closed() && region.kept.has_one_side() {
         // No triangle is in blocks that are farther from the shape than their radius: they are on one side.
         let aside: Vec<usize> = (0..blocks.len()).filter(|b| is_kept[*b] && found[*b] > radius).collect();
         let centers: Vec<Vec3> = aside.iter().map(|b| center(&blocks[*b])).collect();

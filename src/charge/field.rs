@@ -1,0 +1,195 @@
+//! A charged soup and its field.
+use super::clusters::Clusters;
+use super::config::{ChargeConfig, ChargeError, ChargeReport, Solver};
+use super::elements::Elements;
+use super::influence::Influence;
+use super::krylov;
+use super::moments::{Moments, Series};
+use super::panel::potential_and_field;
+use super::robin_hood;
+use super::sum::{Charged, Value, series_of_elements};
+use super::system::{Kept, Matrix, System};
+use super::walk::{Block, Lists, Opening};
+use crate::bvh::{morton_code, sorted_codes};
+use crate::data::{BLOCK, Monitor, TriangleSoup, map_items, map_tasks};
+use crate::math::{Aabb, Vec3};
+use std::sync::Arc;
+
+/// Up to so many elements all entries of the system are kept: 288 MB.
+const MOST_IN_MATRIX: usize = 6000;
+
+/// A charged triangle soup: charges that make the potential the same on all triangles, and their field.
+///
+/// ```
+/// # use fast_winding::{TriangleSoup, charge::{ChargeConfig, ElectricField}, data::Silent, math::Vec3};
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let soup = TriangleSoup::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]])?;
+/// let field = ElectricField::solve(soup.into(), &ChargeConfig::default(), &Silent)?;
+/// let far = 1000.0 * Vec3::Z;
+/// assert!((field.potential(&[far])[0] * 1000.0 - 1.0).abs() < 1e-3);
+/// # Ok(())
+/// # }
+/// ```
+pub struct ElectricField {
+    soup: Arc<TriangleSoup>,
+    elements: Elements,
+    clusters: Clusters,
+    opening: Opening,
+    of_elements: Vec<Series>,
+    of_clusters: Vec<Series>,
+    element_charges: Vec<f64>,
+    charges: Vec<f64>,
+    report: ChargeReport,
+}
+
+impl ElectricField {
+    /// Charges a soup so that the potential is the same at the barycentres of all its triangles, or of their parts.
+    ///
+    /// Up to 6,000 elements the system is kept as a matrix and solved as exactly as asked for. More take the tree: their
+    /// deviation is that of potentials by the tree, some 10⁻⁵ of which are wrong.
+    ///
+    /// # Errors
+    /// If and only if no triangle has an area, a number of the configuration is out of its range, the system does not fit in
+    /// memory, or `monitor` cancels.
+    pub fn solve(
+        soup: Arc<TriangleSoup>,
+        config: &ChargeConfig,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, ChargeError> {
+        config.check()?;
+        monitor.report(0.0, "charges")?;
+        let elements = Elements::new(&soup, config.refinement.as_ref());
+        if elements.is_empty() {
+            return Err(ChargeError::NoArea { triangles: soup.len() });
+        }
+        let clusters = Clusters::of(&elements);
+        let own = own_moments(&elements);
+        let influence = Influence { elements: &elements, integration: config.integration };
+        let system: Box<dyn System> = if elements.len() <= MOST_IN_MATRIX {
+            Box::new(Matrix::new(&influence)?)
+        } else {
+            Box::new(Kept::new(&influence, &clusters, &own, monitor)?)
+        };
+        let solution = match config.solver {
+            Solver::Krylov => krylov::solve(&*system, &influence, config.tolerance, monitor)?,
+            Solver::RobinHood => {
+                let area: f64 = elements.areas.iter().sum();
+                let even = elements.areas.iter().map(|own| own / area).collect();
+                robin_hood::solve(&*system, even, config.tolerance, config.most_steps, monitor)?
+            }
+        };
+        let sum: f64 = solution.charges.iter().sum();
+        let element_charges: Vec<f64> = solution.charges.iter().map(|q| q * (config.total / sum)).collect();
+        let potentials = system.potentials(&element_charges);
+        drop(system);
+        let mut is_flat = vec![true; soup.len()];
+        elements.parents.iter().for_each(|parent| is_flat[*parent as usize] = false);
+        let report = ChargeReport {
+            elements: elements.len(),
+            flat: is_flat.iter().filter(|flat| **flat).count(),
+            steps: solution.steps,
+            deviation: robin_hood::deviation(&potentials).0,
+            potential: elements.frame.scale * potentials.iter().sum::<f64>() / potentials.len() as f64,
+        };
+        Ok(ElectricField::charged(soup, elements, clusters, own, config.opening, element_charges, report))
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "all that it is made of")]
+    fn charged(
+        soup: Arc<TriangleSoup>,
+        elements: Elements,
+        clusters: Clusters,
+        own: Vec<Moments>,
+        opening: Opening,
+        element_charges: Vec<f64>,
+        report: ChargeReport,
+    ) -> ElectricField {
+        let mut charges = vec![0.0; soup.len()];
+        elements.parents.iter().zip(&element_charges).for_each(|(t, charge)| charges[*t as usize] += charge);
+        ElectricField {
+            of_elements: series_of_elements(&own, &element_charges),
+            of_clusters: clusters.series(&elements, &own, &element_charges),
+            soup,
+            elements,
+            clusters,
+            opening,
+            element_charges,
+            charges,
+            report,
+        }
+    }
+
+    pub fn soup(&self) -> &Arc<TriangleSoup> {
+        &self.soup
+    }
+
+    /// One for each triangle of the soup.
+    pub fn charges(&self) -> &[f64] {
+        &self.charges
+    }
+
+    pub fn report(&self) -> &ChargeReport {
+        &self.report
+    }
+
+    /// The potential at points, positive around a positive charge; NaN where a point is not finite.
+    pub fn potential(&self, points: &[Vec3]) -> Vec<f64> {
+        self.at(points).into_iter().map(|value| value.0).collect()
+    }
+
+    /// The field at points, which points away from positive charges: −∇ of the potential. NaN where a point is not finite.
+    pub fn field(&self, points: &[Vec3]) -> Vec<Vec3> {
+        self.at(points).into_iter().map(|value| value.1).collect()
+    }
+
+    /// The field by the closed form of every element: the slow way, exact to rounding.
+    pub fn direct(&self, q: Vec3) -> (f64, Vec3) {
+        let q = self.elements.frame.local(q);
+        let sum = (0..self.elements.len()).fold((0.0, Vec3::ZERO), |sum: Value, i| {
+            let density = self.element_charges[i] / self.elements.areas[i];
+            let (potential, field) = potential_and_field(q, self.elements.corners[i]);
+            (sum.0 + density * potential, sum.1 + density * field)
+        });
+        self.world(sum)
+    }
+
+    fn at(&self, points: &[Vec3]) -> Vec<Value> {
+        let finite: Vec<u32> = (0..points.len() as u32).filter(|i| points[*i as usize].is_finite()).collect();
+        let bounds = Aabb::around(finite.iter().map(|i| points[*i as usize]));
+        let codes = map_items(finite.len(), |k| morton_code(points[finite[k] as usize], &bounds));
+        let order = sorted_codes(codes).1;
+        let place = |k: &u32| finite[*k as usize] as usize;
+        let tasks = map_tasks(order.len().div_ceil(BLOCK), |task| {
+            let own = &order[task * BLOCK..order.len().min((task + 1) * BLOCK)];
+            let points: Vec<Vec3> = own.iter().map(|k| points[place(k)]).collect();
+            self.at_block(&points, &mut Lists::default())
+        });
+        let mut values = vec![(f64::NAN, Vec3::NAN); points.len()];
+        order.iter().zip(tasks.into_iter().flatten()).for_each(|(k, value)| values[place(k)] = value);
+        values
+    }
+
+    /// Potential and field at up to [`BLOCK`] finite points that lie close together.
+    pub(super) fn at_block(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Value> {
+        let local: Vec<Vec3> = points.iter().map(|p| self.elements.frame.local(*p)).collect();
+        let charged = Charged {
+            elements: &self.elements,
+            clusters: &self.clusters,
+            opening: self.opening,
+            charges: &self.element_charges,
+            of_clusters: &self.of_clusters,
+            of_elements: &self.of_elements,
+        };
+        let values = charged.at(&Block::new(&local), lists);
+        values.into_iter().map(|value| self.world(value)).collect()
+    }
+
+    fn world(&self, (potential, field): Value) -> Value {
+        let scale = self.elements.frame.scale;
+        (scale * potential, scale * scale * field)
+    }
+}
+
+fn own_moments(elements: &Elements) -> Vec<Moments> {
+    map_items(elements.len(), |i| Moments::of_triangle(elements.corners[i], elements.centers[i]))
+}

@@ -1,0 +1,202 @@
+//! Lines of the field, followed from the surface outward: section 7.6.
+use super::ElectricField;
+use super::lines::{FieldLines, Integrator, LineConfig, LineError};
+use super::sum::Value;
+use super::walk::Lists;
+use crate::bvh::{morton_code, sorted_codes};
+use crate::data::{BLOCK, Monitor, map_items, map_tasks};
+use crate::math::{Aabb, Vec3};
+
+/// Blocks of lines between two reports to the monitor.
+const BLOCKS_PER_REPORT: usize = 16;
+/// Steps get no shorter than this share of the whole one.
+const SHORTEST: f64 = 1.0 / 16.0;
+/// All steps lead this share of the diagonal away, if not told otherwise.
+const REACH: f64 = 0.1;
+const OFFSET: f64 = 0.1;
+
+/// What gives potential and field at up to [`BLOCK`] points that lie close together.
+pub(super) trait Source: Sync {
+    fn at_block(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Value>;
+}
+
+impl Source for ElectricField {
+    fn at_block(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Value> {
+        ElectricField::at_block(self, points, lists)
+    }
+}
+
+/// Whether line `.0` ends with the segment from `.1` to `.2`.
+pub type Stop<'a> = &'a (dyn Fn(usize, Vec3, Vec3) -> bool + Sync);
+
+/// The lines of the field from `starts`, points of the surface, into the half-spaces of `directions` (normals of any length).
+///
+/// A line begins with its start; where the field leads back through the surface at its second point, as beside a one-sided or
+/// noisy soup, it first follows its direction.
+///
+/// # Errors
+/// If and only if there is not one direction for each start, one is not finite, a length of the configuration is not positive,
+/// the lines have too many points, or `monitor` cancels.
+pub fn trace(
+    field: &ElectricField,
+    starts: &[Vec3],
+    directions: &[Vec3],
+    config: &LineConfig,
+    monitor: &dyn Monitor,
+) -> Result<FieldLines, LineError> {
+    trace_until(field, starts, directions, config, &|_, _, _| false, monitor)
+}
+
+/// [`trace`], with lines that also end as soon as `stop` says so: such as when they have met what they were to meet.
+///
+/// # Errors
+/// Those of [`trace`].
+pub fn trace_until(
+    field: &ElectricField,
+    starts: &[Vec3],
+    directions: &[Vec3],
+    config: &LineConfig,
+    stop: Stop,
+    monitor: &dyn Monitor,
+) -> Result<FieldLines, LineError> {
+    follow(field, field.soup().bounds().diagonal(), [starts, directions], config, stop, monitor)
+}
+
+pub(super) fn follow(
+    source: &dyn Source,
+    diagonal: f64,
+    [starts, directions]: [&[Vec3]; 2],
+    config: &LineConfig,
+    stop: Stop,
+    monitor: &dyn Monitor,
+) -> Result<FieldLines, LineError> {
+    if starts.len() != directions.len() {
+        return Err(LineError::Lengths { starts: starts.len(), directions: directions.len() });
+    }
+    if let Some(k) = (0..starts.len()).find(|k| !(starts[*k].is_finite() && directions[*k].is_finite())) {
+        return Err(LineError::NonFinite(k));
+    }
+    let step = config.step.unwrap_or(REACH * diagonal / config.steps.max(1) as f64);
+    let offset = config.start_offset.unwrap_or(OFFSET * step);
+    for (name, value) in
+        [("step", step), ("start_offset", offset), ("largest_turn", config.largest_turn.unwrap_or(1.0))]
+    {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(LineError::BadLength { name, value });
+        }
+    }
+    let bounds = Aabb::around(starts.iter().copied());
+    let order = sorted_codes(map_items(starts.len(), |k| morton_code(starts[k], &bounds))).1;
+    let blocks: Vec<&[u32]> = order.chunks(BLOCK).collect();
+    let tracer = Tracer { source, config, step, offset, stop };
+    let mut lines = vec![Vec::new(); starts.len()];
+    for (n, some) in blocks.chunks(BLOCKS_PER_REPORT).enumerate() {
+        monitor.report((n * BLOCKS_PER_REPORT) as f64 / blocks.len() as f64, "field lines")?;
+        let found = map_tasks(some.len(), |k| {
+            let place = |list: &[Vec3]| some[k].iter().map(|i| list[*i as usize]).collect::<Vec<Vec3>>();
+            tracer.block(some[k], &place(starts), &place(directions))
+        });
+        some.iter().zip(found).for_each(|(block, found)| {
+            block.iter().zip(found).for_each(|(line, points)| lines[*line as usize] = points);
+        });
+    }
+    monitor.report(1.0, "field lines")?;
+    let points = lines.iter().map(Vec::len).sum::<usize>();
+    if u32::try_from(points).is_err() {
+        return Err(LineError::TooManyPoints { points });
+    }
+    let mut all =
+        FieldLines { points: Vec::with_capacity(points), offsets: Vec::with_capacity(starts.len() + 1) };
+    lines.iter().for_each(|line| all.push(line));
+    Ok(all)
+}
+
+struct Tracer<'a> {
+    source: &'a dyn Source,
+    config: &'a LineConfig,
+    step: f64,
+    offset: f64,
+    stop: Stop<'a>,
+}
+
+/// A line while it is followed.
+struct Line {
+    number: usize,
+    points: Vec<Vec3>,
+    /// Where the field led at its last point.
+    direction: Vec3,
+    /// How far it is still to go, and the next step.
+    rest: f64,
+    step: f64,
+}
+
+impl Line {
+    fn end(&self) -> Vec3 {
+        *self.points.last().expect("a line has a start")
+    }
+}
+
+impl Tracer<'_> {
+    /// Lines that begin close together: they are asked for together at each step.
+    fn block(&self, numbers: &[u32], starts: &[Vec3], directions: &[Vec3]) -> Vec<Vec<Vec3>> {
+        let mut lists = Lists::default();
+        let mut lines: Vec<Line> = (0..starts.len())
+            .map(|k| {
+                let direction = directions[k].normalize_or_zero();
+                let points = vec![starts[k], starts[k] + self.offset * direction];
+                let rest = self.step * self.config.steps as f64;
+                Line { number: numbers[k] as usize, points, direction, rest, step: self.step }
+            })
+            .collect();
+        // Which lines go on. Half a step may be lost to rounding, no more.
+        let mut open: Vec<usize> =
+            (0..lines.len()).filter(|k| self.config.steps > 0 && directions[*k] != Vec3::ZERO).collect();
+        let mut is_first = true;
+        while !open.is_empty() {
+            let at: Vec<Vec3> = open.iter().map(|k| lines[*k].end()).collect();
+            let mut fields = self.directions(&at, &mut lists);
+            if is_first {
+                for (field, k) in fields.iter_mut().zip(&open) {
+                    if field.dot(lines[*k].direction) <= 0.0 {
+                        *field = lines[*k].direction;
+                    }
+                }
+                is_first = false;
+            }
+            if self.config.integrator == Integrator::Midpoint {
+                let steps = open.iter().zip(&fields).zip(&at);
+                let middles: Vec<Vec3> =
+                    steps.map(|((k, field), at)| *at + 0.5 * lines[*k].step * *field).collect();
+                fields = self.directions(&middles, &mut lists);
+            }
+            let mut fields = fields.iter();
+            open.retain(|k| self.advance(&mut lines[*k], *fields.next().expect("one for each line")));
+        }
+        lines.into_iter().map(|line| line.points).collect()
+    }
+
+    fn directions(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Vec3> {
+        self.source.at_block(points, lists).into_iter().map(|(_, field)| field.normalize_or_zero()).collect()
+    }
+
+    /// Adds a point to a line; whether it goes on from there.
+    fn advance(&self, line: &mut Line, direction: Vec3) -> bool {
+        let from = line.end();
+        let to = from + line.step * direction;
+        if direction == Vec3::ZERO || !to.is_finite() {
+            return false;
+        }
+        line.points.push(to);
+        line.rest -= line.step;
+        if let Some(largest) = self.config.largest_turn {
+            let turn = line.direction.angle_between(direction);
+            let wanted = line.step * (largest / turn.max(1e-3 * largest)).clamp(0.5, 2.0);
+            line.step = wanted.clamp(SHORTEST * self.step, self.step);
+        }
+        line.direction = direction;
+        let is_inside = self.config.bounds.is_none_or(|bounds| bounds.contains(to));
+        let has_way = line.rest > 0.5 * SHORTEST * self.step;
+        line.step = line.step.min(line.rest);
+        has_way && is_inside && !(self.stop)(line.number, from, to)
+    }
+}

@@ -1,0 +1,159 @@
+//! Triangles across seams: put into one chart by its closest points, whichever keeps the area best (Schier et al. 2018, section 8).
+use crate::data::{Shape, SurfaceMesh, TriangleSoup};
+use crate::distance::DistanceTree;
+use crate::math::{Vec2, Vec3, area_vector};
+use crate::texture::jacobian::Rest;
+use crate::texture::{Anchor, Anchors, Atlas, Proxy, SoupLines};
+use glam::DQuat;
+use rustc_hash::FxHashMap;
+use std::sync::Arc;
+
+/// How a triangle got its place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outcome {
+    /// All corners where their lines meet the proxy.
+    #[default]
+    Met,
+    /// Some at the closest point of a chart.
+    Moved,
+    /// As it is in space, laid into a chart.
+    Unfolded,
+}
+
+/// The place of a triangle in the texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Placed {
+    pub uv: [Vec2; 3],
+    pub chart: u32,
+    pub outcome: Outcome,
+    /// Whether its corners met different charts.
+    pub is_across: bool,
+    /// Whether it was flipped or flat where its corners met one chart.
+    pub is_folded: bool,
+}
+
+impl Placed {
+    /// Its area over that in space, at the scale of the atlas; nothing if it has none in space.
+    pub fn area_ratio(&self, corners: [Vec3; 3], scale: f64) -> Option<f64> {
+        let area = area_vector(corners).length() * scale * scale;
+        (area > 0.0).then(|| signed_area(self.uv) / area)
+    }
+}
+
+/// A triangle with less than this share of the area that it should have counts as flat.
+const FLAT: f64 = 1e-6;
+
+fn signed_area([a, b, c]: [Vec2; 3]) -> f64 {
+    0.5 * (b - a).perp_dot(c - a)
+}
+
+/// The charts of a proxy, each with a search for its closest point where triangles lie across its seams.
+pub struct Charts<'a> {
+    proxy: &'a Proxy,
+    atlas: &'a Atlas,
+    /// With the triangles of the mesh, in the order of the tree's.
+    trees: Vec<Option<(DistanceTree, Vec<u32>)>>,
+}
+
+impl<'a> Charts<'a> {
+    pub fn new(proxy: &'a Proxy, atlas: &'a Atlas, lines: &SoupLines, anchors: &Anchors) -> Charts<'a> {
+        let chart = |start: &u32| atlas.charts[anchors.of_starts[*start as usize].face as usize];
+        let mut is_needed = vec![false; atlas.chart_count];
+        for corners in &lines.starts.corners {
+            let all = [chart(&corners[0]), chart(&corners[1]), chart(&corners[2])];
+            if all != [all[0]; 3] {
+                all.iter().for_each(|c| is_needed[*c as usize] = true);
+            }
+        }
+        let mut of = vec![Vec::new(); atlas.chart_count];
+        (0..).zip(&atlas.charts).for_each(|(t, c)| of[*c as usize].push(t));
+        let tree = |(faces, is_needed): (Vec<u32>, bool)| {
+            is_needed.then(|| {
+                let soup = part(&proxy.mesh, &faces);
+                (DistanceTree::new(&Shape::Soup(Arc::new(soup))), faces)
+            })
+        };
+        Charts { proxy, atlas, trees: of.into_iter().zip(is_needed).map(tree).collect() }
+    }
+
+    /// The point of a chart that is closest to an anchor: itself, if it lies there.
+    fn closest(&self, chart: u32, anchor: &Anchor) -> Anchor {
+        if self.atlas.charts[anchor.face as usize] == chart {
+            return *anchor;
+        }
+        let found = self.trees[chart as usize].as_ref().and_then(|(tree, faces)| {
+            let nearest = tree.closest(anchor.point)?;
+            let face = faces[nearest.element as usize];
+            Some(Anchor { face, barycentric: nearest.barycentric, point: nearest.point })
+        });
+        found.unwrap_or(*anchor)
+    }
+
+    fn uv(&self, anchors: &[Anchor; 3]) -> [Vec2; 3] {
+        anchors.map(|anchor| self.atlas.at(anchor.face, anchor.barycentric))
+    }
+
+    /// Where a triangle comes to lie whose corners correspond to `anchors`.
+    pub fn placed(&self, corners: [Vec3; 3], anchors: [Anchor; 3]) -> Placed {
+        let charts = anchors.map(|anchor| self.atlas.charts[anchor.face as usize]);
+        let is_across = charts != [charts[0]; 3];
+        let area = area_vector(corners).length() * self.atlas.scale * self.atlas.scale;
+        let is_flat = |uv: [Vec2; 3]| area > 0.0 && signed_area(uv) <= FLAT * area;
+        let candidate = |chart: u32| {
+            let moved = anchors.map(|anchor| self.closest(chart, &anchor));
+            let uv = self.uv(&moved);
+            (chart, moved, uv, (signed_area(uv) - area).abs())
+        };
+        let nearer = |best: (u32, [Anchor; 3], [Vec2; 3], f64), other: (u32, [Anchor; 3], [Vec2; 3], f64)| {
+            if other.3 < best.3 { other } else { best }
+        };
+        let best = match is_across {
+            false => (charts[0], anchors, self.uv(&anchors), 0.0),
+            true => nearer(nearer(candidate(charts[0]), candidate(charts[1])), candidate(charts[2])),
+        };
+        let (chart, moved, uv, _) = best;
+        let is_bad = is_flat(uv);
+        let outcome = match (is_bad, is_across) {
+            (true, _) => Outcome::Unfolded,
+            (false, true) => Outcome::Moved,
+            (false, false) => Outcome::Met,
+        };
+        let uv = if is_bad { self.unfolded(corners, &moved) } else { uv };
+        Placed { uv, chart, outcome, is_across, is_folded: is_bad && !is_across }
+    }
+
+    /// The triangle as it is in space, turned by the least angle into the plane of the face that its first corner corresponds to, and
+    /// laid into the texture as that is: with its middle where the middle of its corners is.
+    fn unfolded(&self, corners: [Vec3; 3], anchors: &[Anchor; 3]) -> [Vec2; 3] {
+        let face = anchors[0].face;
+        let mesh = &self.proxy.mesh;
+        let places = mesh.triangles[face as usize].map(|v| mesh.positions[v as usize]);
+        let (normal, own) =
+            (area_vector(places).normalize_or_zero(), area_vector(corners).normalize_or_zero());
+        let Some(rest) = Rest::new(places) else { return self.uv(anchors) };
+        let [dx, dy] = rest.jacobian(self.atlas.corners_of(face));
+        let x = (places[1] - places[0]).normalize_or_zero();
+        let y = normal.cross(x);
+        let turn = DQuat::from_rotation_arc(own, normal);
+        let middle = corners.iter().sum::<Vec3>() / 3.0;
+        let of_uv = self.uv(anchors).into_iter().sum::<Vec2>() / 3.0;
+        corners.map(|p| {
+            let p = turn * (p - middle);
+            of_uv + p.dot(x) * dx + p.dot(y) * dy
+        })
+    }
+}
+
+/// The soup of some triangles of a mesh.
+fn part(mesh: &SurfaceMesh, faces: &[u32]) -> TriangleSoup {
+    let mut numbers = FxHashMap::default();
+    let mut positions = Vec::new();
+    let mut number = |v: u32| {
+        *numbers.entry(v).or_insert_with(|| {
+            positions.push(mesh.positions[v as usize]);
+            positions.len() as u32 - 1
+        })
+    };
+    let triangles = faces.iter().map(|t| mesh.triangles[*t as usize].map(&mut number)).collect();
+    TriangleSoup::new(positions, triangles).expect("meshes of this crate are finite and indexed")
+}

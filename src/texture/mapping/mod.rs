@@ -1,0 +1,128 @@
+//! From the points of a proxy that a soup's corners correspond to, to their texture coordinates.
+mod correct;
+
+use super::distortion::distortion;
+use super::{Anchors, Atlas, Distortion, Proxy, SoupLines};
+use crate::data::{Cancelled, Monitor, TriangleSoup, Warning, WarningKind, fill_in_blocks};
+use crate::math::{Vec2, Vec3};
+use correct::{Charts, Outcome, Placed};
+use serde::Serialize;
+
+/// The texture of a soup.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mapping {
+    /// Of the corners of each triangle, from 0 to 1, v upward.
+    pub uv: Vec<[Vec2; 3]>,
+    /// The chart that each triangle is in.
+    pub charts: Vec<u32>,
+    pub report: MappingReport,
+}
+
+/// What became of the triangles of a soup.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct MappingReport {
+    pub triangles: usize,
+    /// Triangles whose corners meet different charts.
+    pub across_charts: usize,
+    /// Of those, triangles put into one chart by the closest points of it.
+    pub moved: usize,
+    /// Triangles that were flipped, or flat, before anything was moved: those within one chart.
+    pub folded: usize,
+    /// Triangles, flipped or flat even after moving, that were laid into a chart as they are in space; they may reach beyond it.
+    pub unfolded: usize,
+    /// Triangles that are flipped at last, or flat.
+    pub flipped: usize,
+    /// Triangles whose area is more than [`MappingReport::TORN`] times as large or as small as it should be.
+    pub torn: usize,
+    /// Starts whose lines meet no proxy, and those from a boundary that were replaced.
+    pub lost_lines: usize,
+    pub tangential_lines: usize,
+    /// Triangles in narrow places: the field is weaker than [`MappingReport::WEAK`] of its median at a corner.
+    pub weak_field: usize,
+    /// Of the soup's texture.
+    pub distortion: Distortion,
+    pub warnings: Vec<Warning>,
+}
+
+impl MappingReport {
+    pub const TORN: f64 = 8.0;
+    pub const WEAK: f64 = 0.05;
+}
+
+impl Mapping {
+    /// Texture coordinates where the lines meet the proxy; triangles whose corners meet different charts are put into one of them
+    /// (Schier et al. 2018, section 8).
+    ///
+    /// # Errors
+    /// If and only if the monitor cancels.
+    pub fn new(
+        soup: &TriangleSoup,
+        lines: &SoupLines,
+        anchors: &Anchors,
+        proxy: &Proxy,
+        atlas: &Atlas,
+        monitor: &dyn Monitor,
+    ) -> Result<Mapping, Cancelled> {
+        let charts = Charts::new(proxy, atlas, lines, anchors);
+        let mut placed = vec![Placed::default(); soup.len()];
+        let corners = |t: usize| lines.starts.corners[t].map(|s| anchors.of_starts[s as usize]);
+        let place = |t: usize, _: &mut ()| charts.placed(soup.corners(t), corners(t));
+        fill_in_blocks(&mut placed, place, "texture", monitor)?;
+        let report = report(soup, lines, anchors, atlas, &placed);
+        let (uv, charts) = placed.into_iter().map(|p| (p.uv, p.chart)).unzip();
+        Ok(Mapping { uv, charts, report })
+    }
+}
+
+/// Any values at the proxy's vertices, such as colours or normals, at the corners of the soup's triangles.
+pub fn transferred(values: &[Vec3], lines: &SoupLines, anchors: &Anchors, proxy: &Proxy) -> Vec<[Vec3; 3]> {
+    let at = |start: u32| {
+        let anchor = &anchors.of_starts[start as usize];
+        let corners = proxy.mesh.triangles[anchor.face as usize];
+        (0..3).map(|k| anchor.barycentric[k] * values[corners[k] as usize]).sum()
+    };
+    lines.starts.corners.iter().map(|corners| corners.map(at)).collect()
+}
+
+fn report(
+    soup: &TriangleSoup,
+    lines: &SoupLines,
+    anchors: &Anchors,
+    atlas: &Atlas,
+    placed: &[Placed],
+) -> MappingReport {
+    let count = |is: &dyn Fn(&Placed) -> bool| placed.iter().filter(|p| is(p)).count();
+    let is_weak = |corners: &&[u32; 3]| {
+        corners
+            .iter()
+            .any(|s| lines.strength[*s as usize] < MappingReport::WEAK && !anchors.is_lost[*s as usize])
+    };
+    let is_torn = |(t, placed): (usize, &Placed)| {
+        let ratio = placed.area_ratio(soup.corners(t), atlas.scale);
+        ratio.is_some_and(|r| r > MappingReport::TORN || r < 1.0 / MappingReport::TORN)
+    };
+    let distortion = distortion(placed.iter().enumerate().map(|(t, p)| (soup.corners(t), p.uv)));
+    let mut found = MappingReport {
+        triangles: soup.len(),
+        across_charts: count(&|p| p.is_across),
+        moved: count(&|p| p.outcome == Outcome::Moved),
+        folded: count(&|p| p.is_folded),
+        unfolded: count(&|p| p.outcome == Outcome::Unfolded),
+        flipped: distortion.flipped + distortion.flat,
+        torn: placed.iter().enumerate().filter(|p| is_torn(*p)).count(),
+        lost_lines: anchors.lost,
+        tangential_lines: anchors.tangential,
+        weak_field: lines.starts.corners.iter().filter(is_weak).count(),
+        distortion,
+        warnings: Vec::new(),
+    };
+    let counts = [
+        (WarningKind::LostLines, found.lost_lines),
+        (WarningKind::TangentialLines, found.tangential_lines),
+        (WarningKind::WeakField, found.weak_field),
+        (WarningKind::BadTexture, found.flipped + found.torn),
+    ];
+    found.warnings = counts.into_iter().filter(|c| c.1 > 0).map(|(k, n)| Warning::new(k, n)).collect();
+    found
+}
