@@ -17,7 +17,6 @@ export interface Texturing {
   /** What has the texture. */
   readonly source: Soup;
   readonly handle: Texture;
-  readonly mapping: Mapping;
   readonly report: TextureReport;
   readonly soup: TexturedGeometry;
   readonly proxy: ProxyGeometry;
@@ -49,7 +48,16 @@ function distance(a: Float64Array, i: number, b: Float64Array, j: number): numbe
 }
 
 /** The outlines of charts in the texture: two ends u v u v for each edge of a triangle that is a seam. */
-export function outlinesOf({ positions, indices, uvs, seams }: ProxyGeometry): Float32Array {
+export function outlinesOf(proxy: ProxyGeometry): Float32Array {
+  const known = outlines.get(proxy) ?? findOutlines(proxy);
+  outlines.set(proxy, known);
+  return known;
+}
+
+/** Found once for each proxy. */
+const outlines = new WeakMap<ProxyGeometry, Float32Array>();
+
+function findOutlines({ positions, indices, uvs, seams }: ProxyGeometry): Float32Array {
   const vertices = positions.length / 3;
   const key = (a: number, b: number): number => Math.min(a, b) * vertices + Math.max(a, b);
   const cut = new Set<number>();

@@ -16,9 +16,9 @@ export async function makeTexture(page: Page, mapping: Mapping, refine: boolean)
   const { shape } = store.state.model!;
   if (shape.kind !== 'soup') return;
   await attempt(page, 'Texture', 'The texture could not be made', async (options) => {
-    const { value: handle, milliseconds } = await timed(() => shape.texture({ ...mapping, refine, ...options }));
+    const { value: handle, milliseconds } = await timed(() => shape.texture({ ...mapping, onlySeams: false, refine, ...options }));
     try {
-      const value = { source: shape, ...(await contents(handle, mapping, [])) };
+      const value = { source: shape, ...(await contents(handle, [])) };
       store.state.texture?.value.handle.free();
       const isFlowing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
       store.set({ texture: { value, milliseconds }, seams: [], seamStart: undefined, isDrawing: false, isFlowing, visible: only(page, 'textured') });
@@ -57,15 +57,16 @@ export async function flatten(page: Page, mapping: Mapping): Promise<void> {
 
 async function mapped(page: Page, before: Texturing, mapping: Mapping, seams: readonly Seam[], options: CallOptions): Promise<Texturing> {
   const { handle, source } = before;
-  const { milliseconds } = await timed(() => handle.remap({ ...mapping, seams: seams.map(({ chain }) => chain), ...options }));
-  const value = { source, ...(await contents(handle, mapping, seams)) };
+  const cuts = { seams: seams.map(({ chain }) => chain), onlySeams: mapping.onlySeams && seams.length > 0 };
+  const { milliseconds } = await timed(() => handle.remap({ ...mapping, ...cuts, ...options }));
+  const value = { source, ...(await contents(handle, seams)) };
   page.store.set({ texture: { value, milliseconds } });
   return value;
 }
 
-async function contents(handle: Texture, mapping: Mapping, seams: readonly Seam[]): Promise<Omit<Texturing, 'source'>> {
+async function contents(handle: Texture, seams: readonly Seam[]): Promise<Omit<Texturing, 'source'>> {
   const [soup, proxy, lines] = await Promise.all([handle.geometry(), handle.proxy(), handle.lines({ count: LINES })]);
-  return { handle, mapping, report: handle.report, soup, proxy, lines, seams };
+  return { handle, report: handle.report, soup, proxy, lines, seams };
 }
 
 async function seamsOn({ handle, proxy }: Texturing, before: ProxyGeometry, seams: readonly Seam[]): Promise<Seam[]> {

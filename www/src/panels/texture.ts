@@ -22,7 +22,7 @@ export function texturePanel(page: Page): void {
   const proxy = proxyFields(page, () => store.state.texture && void remap(page, wanted()));
   const cone = slider('texture-cone');
   const [refine, onlySeams] = ['texture-refine', 'texture-only-seams'].map((id) => byId<HTMLInputElement>(id));
-  const wanted = (): Mapping => ({ ...proxy(), cone: cone.valueAsNumber, onlySeams: onlySeams.checked && store.state.seams.length > 0 });
+  const wanted = (): Mapping => ({ ...proxy(), cone: cone.valueAsNumber, onlySeams: onlySeams.checked });
 
   byId('texture').addEventListener('click', () => void makeTexture(page, wanted(), refine.checked).then(() => store.state.texture && reveal('texture-result')));
   enableWhenUsable(page, byId<HTMLButtonElement>('texture'), isSoup);
