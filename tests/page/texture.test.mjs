@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import { describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { boxStl, sphereXyz } from './models.mjs';
+import { boxStl, sphereStl, sphereXyz } from './models.mjs';
 import { dropFile, fact, openPage, outside, picture, saved, settled, slide } from './page.mjs';
 import { served } from './site.mjs';
 
@@ -61,8 +61,10 @@ async function distance(page) {
   return parseFloat(await fact(page, 'texture-facts', 'Proxy'));
 }
 
+/** Millimetres. */
 async function seamLength(page) {
-  return parseFloat((await fact(page, 'texture-facts', 'Charts')).split(', ').at(-1));
+  const [, figure, unit] = /([\d.]+) (mm|m) of seams$/.exec(await fact(page, 'texture-facts', 'Charts'));
+  return Number(figure) * (unit === 'm' ? 1000 : 1);
 }
 
 /** Clicks at a part of the width and of the height of the view. */
@@ -75,6 +77,9 @@ async function drawSeam(page, ...places) {
   for (const place of places) await clickView(page, ...place);
   await page.waitForSelector('#seam-list li');
 }
+
+/** Two places in the view on the top of the box's proxy. */
+const ON_TOP = [[0.45, 0.27], [0.68, 0.31]];
 
 /** What the canvas of the texture shows, as a data URL. */
 async function atlas(page) {
@@ -105,23 +110,41 @@ function gltfOf(bytes) {
   return JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());
 }
 
+/** The texture coordinates of a binary glTF. */
+function coordinatesOf(bytes) {
+  const { meshes, accessors, bufferViews } = gltfOf(bytes);
+  const { bufferView, byteOffset = 0, count } = accessors[meshes[0].primitives[0].attributes.TEXCOORD_0];
+  const { byteOffset: start = 0, byteStride = 8 } = bufferViews[bufferView];
+  const first = 20 + bytes.readUInt32LE(12) + 8 + start + byteOffset;
+  return Array.from({ length: count }, (_, k) => [0, 4].map((next) => bytes.readFloatLE(first + k * byteStride + next)));
+}
+
 describe('a texture', () => {
-  test('of a box covers all its triangles, which is told in words and figures', () =>
-    withModel(BOX, async (page) => {
+  test('of a sphere covers all its triangles, which is told in words and figures', () =>
+    withModel(sphereStl(20, 12), async (page) => {
       assert.match(await page.textContent('#texture-suggested'), /3 % of the longest side, 1\.2 mm/);
       assert.ok(await page.isHidden('#texture-result'));
       const before = await picture(page);
       await makeTexture(page);
       assert.notEqual(await picture(page), before);
       assert.ok(await page.isChecked('input[name=texture-shown][value=textured]'));
-      assert.equal(await page.textContent('#texture-verdict-text'), 'All 12 triangles have their part of the picture.');
+      assert.equal(await page.textContent('#texture-verdict-text'), 'All 528 triangles have their part of the picture.');
       assert.equal(await page.getAttribute('#texture-verdict', 'data-rating'), 'good');
       assert.equal(await distance(page), 4);
       assert.match(await fact(page, 'texture-facts', 'Charts'), /^\d+, [\d.]+ mm of seams$/);
       const share = parseFloat(await fact(page, 'texture-facts', 'Of the picture used'));
       assert.ok(share > 20 && share <= 100, `${share} % of the picture`);
-      // Twelve triangles meet at sharp edges: lines from their corners reach charts that turn by 90°.
-      assert.ok(parseFloat(await fact(page, 'texture-facts', 'Stretched, mean and most')) >= 1);
+      const [mean, most] = (await fact(page, 'texture-facts', 'Stretched, mean and most')).split(', ').map(Number);
+      assert.ok(mean >= 1 && mean < 1.5 && most >= mean, `stretched by ${mean}, ${most} at most`);
+    }));
+
+  test('of triangles that are too large for it is told to be a bad one', () =>
+    withTexture(async (page) => {
+      assert.match(await page.textContent('#texture-verdict-text'), /^\d+ triangles of 12 are not textured well\.$/);
+      assert.equal(await page.getAttribute('#texture-verdict', 'data-rating'), 'alarm');
+      const reasons = await page.locator('#texture-verdict-reasons li').allTextContents();
+      assert.ok(reasons.some((reason) => /^\d+ triangles lay across seams; .* moved into one chart\.$/.test(reason)), reasons.join(' '));
+      assert.equal(new Set(reasons).size, reasons.length);
     }));
 
   test('shows its charts, and field lines that can be stopped', () =>
@@ -137,8 +160,8 @@ describe('a texture', () => {
       assert.ok(await page.isChecked('[data-item=fieldLines]'));
       const moving = await picture(page);
       assert.notEqual(moving, charts);
-      await page.waitForTimeout(400);
-      assert.notEqual(await picture(page), moving, 'they are in motion');
+      // In motion: it becomes another one, however long that takes.
+      while ((await picture(page)) === moving) await page.waitForTimeout(100);
       await page.click('#texture-flow');
       const still = await picture(page);
       await page.waitForTimeout(400);
@@ -219,17 +242,18 @@ describe('seams', () => {
       assert.equal(await page.getAttribute('#seam-draw', 'aria-pressed'), 'true');
       assert.ok(await page.isChecked('input[name=texture-shown][value=charts]'));
       const charts = await picture(page);
-      await drawSeam(page, [0.42, 0.42], [0.58, 0.46]);
+      await drawSeam(page, ...ON_TOP);
       assert.match(await page.textContent('#seam-list li'), /^Seam 1, [\d.]+ mm/);
       assert.notEqual(await picture(page), charts, 'the seam is drawn');
       assert.ok(await page.isVisible('#seam-stale'));
       await page.click('#seam-undo');
       assert.equal(await page.locator('#seam-list li').count(), 0);
-      await drawSeam(page, [0.42, 0.42], [0.58, 0.46]);
+      await drawSeam(page, ...ON_TOP);
       await page.click('#flatten:enabled');
       await page.waitForSelector('#seam-stale', { state: 'hidden' });
       await idle(page);
-      assert.ok((await seamLength(page)) > before, 'the charts have one seam more');
+      const after = await seamLength(page);
+      assert.ok(after > before, `${after} mm of seams, ${before} mm without the one that was drawn`);
       await page.click('#seam-list button');
       assert.ok(await page.isVisible('#seam-stale'));
       await page.click('#seam-draw:enabled');
@@ -252,7 +276,7 @@ describe('seams', () => {
   test('stay between the same places when the proxy changes', () =>
     withTexture(async (page) => {
       await page.click('#seam-draw:enabled');
-      await drawSeam(page, [0.42, 0.42], [0.58, 0.46]);
+      await drawSeam(page, ...ON_TOP);
       const length = async () => parseFloat((await page.textContent('#seam-list li')).split(', ')[1]);
       const before = await length();
       await page.fill('#texture-exact', '3');
@@ -324,6 +348,14 @@ describe('a textured model', () => {
       const places = text('box-textured.obj').match(/^vt .*$/gm).flatMap((line) => line.split(' ').slice(1).map(Number));
       assert.ok(places.every((value) => value >= 0 && value <= 1));
       assert.match(text('box-textured.mtl'), /^map_Kd box-textured\.png$/m);
+      // The same places as in glTF, where v goes downward.
+      await page.selectOption('#texture-download-format', 'glb');
+      const glb = (await saved(page, '#texture-download')).bytes;
+      const corners = [...text('box-textured.obj').matchAll(/ \d+\/(\d+)/g)].map(([, place]) => Number(place) - 1);
+      coordinatesOf(glb).forEach(([u, v], k) => {
+        const [x, y] = [places[2 * corners[k]], places[2 * corners[k] + 1]];
+        assert.ok(Math.abs(u - x) < 1e-6 && Math.abs(1 - v - y) < 1e-6, `corner ${k}: ${u}, ${v} for ${x}, ${y}`);
+      });
     }));
 
   test('fits a narrow page', () =>
