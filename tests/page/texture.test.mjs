@@ -161,7 +161,8 @@ describe('a texture', () => {
       const moving = await picture(page);
       assert.notEqual(moving, charts);
       // In motion: it becomes another one, however long that takes.
-      while ((await picture(page)) === moving) await page.waitForTimeout(100);
+      let tries = 0;
+      while ((await picture(page)) === moving) assert.ok(tries++ < 50, 'nothing moves');
       await page.click('#texture-flow');
       const still = await picture(page);
       await page.waitForTimeout(400);
@@ -258,6 +259,21 @@ describe('seams', () => {
       assert.ok(await page.isVisible('#seam-stale'));
       await page.click('#seam-draw:enabled');
       assert.equal(await page.getAttribute('#seam-draw', 'aria-pressed'), 'false');
+    }));
+
+  test('are led on from their ends, in one piece', () =>
+    withTexture(async (page) => {
+      await page.click('#seam-draw:enabled');
+      await drawSeam(page, ...ON_TOP);
+      const length = async () => parseFloat((await page.textContent('#seam-list li')).split(', ')[1]);
+      const before = await length();
+      await clickView(page, ...ON_TOP[1]);
+      await clickView(page, 0.6, 0.24);
+      await page.waitForFunction((before) => !document.querySelector('#seam-list li').textContent.includes(`, ${before} mm`), before);
+      assert.equal(await page.locator('#seam-list li').count(), 1);
+      assert.ok((await length()) > before);
+      await page.click('#seam-undo');
+      assert.equal(await length(), before);
     }));
 
   test('are drawn with the keys alone', () =>

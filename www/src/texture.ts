@@ -4,13 +4,14 @@ import type { AtlasOptions, FieldLines, ProxyGeometry, ProxyOptions, Soup, Textu
 /** The proxy, and how it is cut and laid flat. */
 export type Mapping = ProxyOptions & Omit<AtlasOptions, 'seams'>;
 
-/** A cut between two places of the proxy. */
+/** A cut through places of the proxy, two at least. */
 export interface Seam {
   /** Vertices of the proxy. */
-  readonly from: number;
-  readonly to: number;
-  /** From the one to the other along edges, both included. */
+  readonly picks: readonly number[];
+  /** From the first to the last along edges, through the others. */
   readonly chain: Uint32Array;
+  /** What it was before it was led on to the last of the places. */
+  readonly before?: Seam;
 }
 
 export interface Texturing {

@@ -72,10 +72,15 @@ async function contents(handle: Texture, seams: readonly Seam[]): Promise<Omit<T
 async function seamsOn({ handle, proxy }: Texturing, before: ProxyGeometry, seams: readonly Seam[]): Promise<Seam[]> {
   const moved: Seam[] = [];
   for (const seam of seams) {
-    const [from, to] = [seam.from, seam.to].map((vertex) => nearestVertex(proxy, before, vertex));
-    if (from !== to) moved.push({ from, to, chain: await handle.seam(from, to) });
+    const nearest = seam.picks.map((vertex) => nearestVertex(proxy, before, vertex));
+    const picks = nearest.filter((vertex, k) => vertex !== nearest[k - 1]);
+    if (picks.length > 1) moved.push({ picks, chain: await chainThrough(handle, picks) });
   }
   return moved;
+}
+
+function chainThrough(handle: Texture, [from, to, ...further]: readonly number[]): Promise<Uint32Array> {
+  return handle.seam(from, to, ...further);
 }
 
 /** For a call that is a part of a job. */
@@ -83,7 +88,7 @@ function share({ signal, onProgress }: Required<CallOptions>, start: number, end
   return { signal, onProgress: (fraction, stage) => onProgress(start + fraction * (end - start), stage) };
 }
 
-/** A place for the start of a seam, or for its end: then the seam is there. The same place twice is none. */
+/** A place for the start of a seam, or for its end: then the seam is there. One that starts where another ends leads that on; no edge is cut twice then. The same place twice is none. */
 export async function markSeam(page: Page, vertex: number): Promise<void> {
   const { store } = page;
   const { texture, seamStart } = store.state;
@@ -92,8 +97,11 @@ export async function markSeam(page: Page, vertex: number): Promise<void> {
   // What is marked meanwhile begins another one.
   store.set({ seamStart: undefined });
   try {
-    const chain = await texture.value.handle.seam(seamStart, vertex);
-    if (store.state.texture === texture) store.set({ seams: [...store.state.seams, { from: seamStart, to: vertex, chain }] });
+    const before = store.state.seams.find(({ picks }) => picks.at(-1) === seamStart);
+    const picks = [...(before?.picks ?? [seamStart]), vertex];
+    const chain = await chainThrough(texture.value.handle, picks);
+    if (store.state.texture !== texture) return;
+    store.set({ seams: [...store.state.seams.filter((seam) => seam !== before), { picks, chain, before }] });
   } catch (error) {
     await fail(page, 'No seam leads there', error);
   }

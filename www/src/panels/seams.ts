@@ -19,7 +19,8 @@ export function seamsPanel(page: Page, wanted: () => Mapping): void {
   });
   undo.addEventListener('click', () => {
     const { seams, seamStart } = store.state;
-    store.set(seamStart === undefined ? { seams: seams.slice(0, -1) } : { seamStart: undefined });
+    const before = seams.at(-1)?.before;
+    store.set(seamStart === undefined ? { seams: [...seams.slice(0, -1), ...(before ? [before] : [])] } : { seamStart: undefined });
   });
   byId('flatten').addEventListener('click', () => void flatten(page, wanted()));
   byId('canvas').addEventListener('mark', (event) => void markSeam(page, (event as CustomEvent<number>).detail));
@@ -37,7 +38,7 @@ export function seamsPanel(page: Page, wanted: () => Mapping): void {
     byId('seam-hint').textContent = !isDrawing
       ? 'Charts are cut along them.'
       : seamStart === undefined
-        ? 'Click where the seam starts. With the keys: turn the view, Enter marks its middle.'
+        ? 'Click where the seam starts; the end of one leads it on. With the keys: turn the view, Enter marks its middle.'
         : 'Click where it ends; the same place again takes it back.';
   });
   store.on(['seams', 'seamStart', 'texture', 'job'], ({ seams, seamStart, texture, job }) => {

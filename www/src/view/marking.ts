@@ -67,7 +67,7 @@ export class Marking {
     };
     // One on the far side of the proxy is not as far from the camera as what is under the pixel.
     const reach = hit.distance * 0.02;
-    const ends = seams.flatMap(({ from, to }) => [from, to]).concat(start ?? []);
+    const ends = seams.flatMap(({ picks }) => [picks[0], picks[picks.length - 1]]).concat(start ?? []);
     const close = ends.filter((vertex) => onScreen(vertex).distanceTo(pixel) <= SNAP_PIXELS && Math.abs(place(vertex).distanceTo(camera.position) - hit.distance) < reach);
     const corners = close.length > 0 ? close : [...proxy.indices.subarray(3 * hit.faceIndex, 3 * hit.faceIndex + 3)];
     return corners.reduce((best, vertex) => (place(vertex).distanceTo(hit.point) < place(best).distanceTo(hit.point) ? vertex : best));

@@ -71,7 +71,7 @@ export function drawnSeams(proxy: ProxyGeometry, seams: readonly Seam[], start: 
   const objects: Object3D[] = [];
   const edges = seams.flatMap(({ chain }) => [...chain].slice(1).flatMap((vertex, k) => [chain[k], vertex]));
   if (edges.length > 0) objects.push(thickLines(places(proxy, edges, origin), '--view-chosen', DRAWN_PIXELS, cut));
-  const ends = seams.flatMap(({ from, to }) => [from, to]);
+  const ends = seams.flatMap(({ picks }) => picks);
   if (start !== undefined) ends.push(start);
   if (ends.length > 0) objects.push(balls(places(proxy, ends, origin), BALL * radiusOf(proxy)));
   for (const object of objects) object.renderOrder = 2;
