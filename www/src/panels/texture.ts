@@ -115,7 +115,7 @@ function say({ report: { mapping, warnings } }: Texturing): void {
   if (acrossCharts) sentences.push(`${plural(acrossCharts, 'triangle')} lay across seams; ${moved === acrossCharts ? 'all' : count(moved)} of them could be moved into one chart.`);
   if (unfolded) sentences.push(`${plural(unfolded, 'triangle')} that folded over ${unfolded === 1 ? 'was' : 'were'} laid flat by ${unfolded === 1 ? 'itself' : 'themselves'}.`);
   if (flipped) sentences.push(`${plural(flipped, 'triangle')} ${flipped === 1 ? 'is' : 'are'} flipped or flat in the picture.`);
-  if (torn) sentences.push(`${plural(torn, 'triangle')} ${torn === 1 ? 'is' : 'are'} much too large or too small in it.`);
+  if (torn) sentences.push(`${plural(torn, 'triangle')} ${torn === 1 ? 'is' : 'are'} more than eight times too large or too small in the picture.`);
   // Bad triangles are told above.
   const others = warnings.filter(({ code }) => code !== 'bad-texture');
   setList(byId('texture-verdict-reasons'), [...sentences, ...others.map(({ message }) => sentence(message))]);
