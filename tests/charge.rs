@@ -117,13 +117,14 @@ fn an_ellipsoid_has_the_charges_of_the_closed_form() {
     );
 }
 
-/// The capacitance of a cube is 0.66067815 of its side, of a square 0.3667875 (Hwang & Mascagni 2004; Read 1997).
+/// 0.3667875 of its side (Read 1997). The density is singular along the edges, so errors halve with the triangles' size, and
+/// the extrapolation from two sizes is much nearer than either.
 #[test]
 fn a_square_has_its_capacitance() {
     let potential = |n: usize| solve(plate(n), &as_is()).report().potential;
     let expected = 1.0 / (2.0 * 0.366_787_5);
     let (coarse, fine) = (potential(12) / expected - 1.0, potential(24) / expected - 1.0);
-    assert!(fine.abs() < 0.01 && fine.abs() < 0.6 * coarse.abs(), "{coarse} {fine}");
+    assert!((coarse / fine - 2.0).abs() < 0.1 && (2.0 * fine - coarse).abs() < 1e-3, "{coarse} {fine}");
 }
 
 #[test]
@@ -261,7 +262,9 @@ fn lines_do_not_cross() {
 #[test]
 fn the_midpoint_method_is_of_second_order_and_eulers_of_first() {
     let axes = Vec3::new(1.0, 0.4, 0.7);
-    let field = solve(scaled(&sphere(3), axes, Vec3::ZERO), &as_is());
+    // No clusters: where others are taken, the field of the tree is not smooth.
+    let opening = Opening { beta: 1e3, near: 1e3 };
+    let field = solve(scaled(&sphere(2), axes, Vec3::ZERO), &ChargeConfig { opening, ..as_is() });
     let starts: Vec<Vec3> = (0..40)
         .map(|k| {
             axes * Vec3::new(f64::from(k).sin(), (1.7 * f64::from(k)).cos(), (0.6 * f64::from(k)).sin())
@@ -274,20 +277,20 @@ fn the_midpoint_method_is_of_second_order_and_eulers_of_first() {
             integrator,
             steps,
             step: Some(0.8 / steps as f64),
-            start_offset: Some(0.2),
+            start_offset: Some(0.3),
             ..Default::default()
         };
         let lines = lines_of(&field, &starts, &normals, &config);
         (0..40).map(|k| *lines.line(k).last().unwrap()).collect()
     };
-    let best = ends(Integrator::Midpoint, 400);
+    let best = ends(Integrator::Midpoint, 640);
     let error = |integrator: Integrator, steps: usize| -> f64 {
         ends(integrator, steps).iter().zip(&best).map(|(a, b)| a.distance(*b)).sum::<f64>() / 40.0
     };
-    let euler = error(Integrator::Euler, 10) / error(Integrator::Euler, 40);
-    let midpoint = error(Integrator::Midpoint, 5) / error(Integrator::Midpoint, 20);
-    assert!((3.0..5.5).contains(&euler), "{euler}");
-    assert!((9.0..25.0).contains(&midpoint), "{midpoint}");
+    let euler = error(Integrator::Euler, 20) / error(Integrator::Euler, 80);
+    let midpoint = error(Integrator::Midpoint, 20) / error(Integrator::Midpoint, 80);
+    assert!((3.5..4.6).contains(&euler), "{euler}");
+    assert!((13.0..20.0).contains(&midpoint), "{midpoint}");
 }
 
 #[test]
@@ -366,6 +369,62 @@ fn copies_of_a_triangle_share_its_charge() {
             assert!((sum - once.charges()[t]).abs() < 1e-9, "{t}: {sum}");
         }
     }
+}
+
+/// Between concentric spheres of radii 1 and 2 with charges ±1 the field is 1/r², and beyond them 0. The spheres' potentials
+/// are ±1 by the choice of the scale: V₁ = q + Q/2 = v, V₂ = (q + Q)/2 = −v, so that q = 4v, Q = −6v.
+#[test]
+fn the_dipole_field_leads_from_the_soup_to_what_is_around_it() {
+    let (inner, outer) = (sphere(3), scaled(&sphere(3), Vec3::splat(2.0), Vec3::ZERO));
+    let field = ElectricField::dipole(&inner, &outer, &as_is(), &Silent).unwrap();
+    assert!(field.report().deviation < 1e-9);
+    let charge: f64 = field.charges()[512..].iter().sum();
+    assert!((charge + 1.5).abs() < 0.03, "{charge}");
+    let starts: Vec<Vec3> = (0..60).map(|t| inner.corners(8 * t)[0]).collect();
+    let config = LineConfig { steps: 60, step: Some(0.02), ..Default::default() };
+    let lines = lines_of(&field, &starts, &starts, &config);
+    for (hit, start) in first_hits(&lines, &outer).iter().zip(&starts) {
+        assert!(hit.is_some_and(|hit| hit.point.normalize().distance(*start) < 0.02), "{hit:?}");
+    }
+    let at = 1.5 * Vec3::new(0.6, 0.0, 0.8);
+    assert!((field.field(&[at])[0] * 2.25).distance(at / 1.5) < 0.02);
+}
+
+/// A pipe of 320 faces and 160 vertices, of wall thickness 0.1: no line from its inside leads through it, with exact integrals.
+#[test]
+fn lines_from_inside_a_pipe_leave_through_its_ends() {
+    let (around, along) = (16, 4);
+    let at = |k: usize, z: usize, r: f64| {
+        let angle = 2.0 * PI * k as f64 / around as f64;
+        Vec3::new(r * angle.cos(), r * angle.sin(), z as f64 - 0.5 * along as f64)
+    };
+    let mut cells = Vec::new();
+    for k in 0..around {
+        let next = k + 1;
+        for z in 0..along {
+            cells.push([at(k, z, 1.0), at(next, z, 1.0), at(next, z + 1, 1.0), at(k, z + 1, 1.0)]);
+            cells.push([at(next, z, 0.9), at(k, z, 0.9), at(k, z + 1, 0.9), at(next, z + 1, 0.9)]);
+        }
+        cells.push([at(k, along, 0.9), at(k, along, 1.0), at(next, along, 1.0), at(next, along, 0.9)]);
+        cells.push([at(k, 0, 1.0), at(k, 0, 0.9), at(next, 0, 0.9), at(next, 0, 1.0)]);
+    }
+    let pipe = loose(&cells.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect::<Vec<_>>());
+    assert_eq!(pipe.len(), 320);
+    let mut starts = Vec::new();
+    let mut normals = Vec::new();
+    for [a, b, c, _] in cells.iter().filter(|cell| cell.iter().all(|p| p.truncate().length() < 0.95)) {
+        starts.push(a.midpoint(*c));
+        normals.push((*b - *a).cross(*c - *a));
+    }
+    let config = LineConfig { steps: 400, step: Some(0.02), ..Default::default() };
+    let field = solve(pipe, &ChargeConfig { tolerance: 1e-8, ..Default::default() });
+    let lines = lines_of(&field, &starts, &normals, &config);
+    // Without their starts, which are on the wall.
+    let mut free = FieldLines::default();
+    (0..lines.len()).for_each(|k| free.push(&lines.line(k)[1..]));
+    let hits = first_hits(&free, field.soup());
+    assert_eq!(hits.iter().filter(|hit| hit.is_some()).count(), 0);
+    assert!((0..lines.len()).all(|k| lines.line(k).last().unwrap().z.abs() > 2.0));
 }
 
 #[test]

@@ -56,12 +56,48 @@ impl ElectricField {
         config: &ChargeConfig,
         monitor: &dyn Monitor,
     ) -> Result<Self, ChargeError> {
+        let wanted = vec![1.0; soup.len()];
+        ElectricField::between(soup, &wanted, config, monitor)
+    }
+
+    /// The field between a soup with the potential 1 and a surface around it with −1, both charged: the dipole field of Degener &
+    /// Klein 2007 (section 7.3), for comparison. Its lines lead from the soup to that surface.
+    ///
+    /// The soup of the result is both, the surface's triangles last. The soup's charge is `config.total`; the system is solved by
+    /// GMRES.
+    ///
+    /// # Errors
+    /// Those of [`ElectricField::solve`], for both together.
+    pub fn dipole(
+        soup: &TriangleSoup,
+        around: &TriangleSoup,
+        config: &ChargeConfig,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, ChargeError> {
+        let first = soup.positions().len() as u32;
+        let positions = [soup.positions(), around.positions()].concat();
+        let shifted = around.triangles().iter().map(|corners| corners.map(|i| first + i));
+        let triangles = soup.triangles().iter().copied().chain(shifted).collect();
+        let both = TriangleSoup::new(positions, triangles).expect("both are soups");
+        let wanted: Vec<f64> = (0..both.len()).map(|t| if t < soup.len() { 1.0 } else { -1.0 }).collect();
+        let config = ChargeConfig { solver: Solver::Krylov, ..*config };
+        ElectricField::between(both.into(), &wanted, &config, monitor)
+    }
+
+    /// Charges for potentials of 1 or −1 on each triangle; the sum of the positive triangles' is `config.total`.
+    fn between(
+        soup: Arc<TriangleSoup>,
+        wanted: &[f64],
+        config: &ChargeConfig,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, ChargeError> {
         config.check()?;
         monitor.report(0.0, "charges")?;
         let elements = Elements::new(&soup, config.refinement.as_ref());
         if elements.is_empty() {
             return Err(ChargeError::NoArea { triangles: soup.len() });
         }
+        let wanted: Vec<f64> = elements.parents.iter().map(|t| wanted[*t as usize]).collect();
         let clusters = Clusters::of(&elements);
         let own = own_moments(&elements);
         let influence = Influence { elements: &elements, integration: config.integration };
@@ -71,16 +107,20 @@ impl ElectricField {
             Box::new(Kept::new(&influence, &clusters, &own, monitor)?)
         };
         let solution = match config.solver {
-            Solver::Krylov => krylov::solve(&*system, &influence, config.tolerance, monitor)?,
+            Solver::Krylov => krylov::solve(&*system, &influence, &wanted, config.tolerance, monitor)?,
             Solver::RobinHood => {
                 let area: f64 = elements.areas.iter().sum();
                 let even = elements.areas.iter().map(|own| own / area).collect();
                 robin_hood::solve(&*system, even, config.tolerance, config.most_steps, monitor)?
             }
         };
-        let sum: f64 = solution.charges.iter().sum();
+        let is_of_soup = |pair: &(&f64, &f64)| *pair.1 > 0.0;
+        let sum: f64 =
+            solution.charges.iter().zip(&wanted).filter(is_of_soup).map(|(charge, _)| charge).sum();
         let element_charges: Vec<f64> = solution.charges.iter().map(|q| q * (config.total / sum)).collect();
+        // With the signs of one conductor: all are to be the same.
         let potentials = system.potentials(&element_charges);
+        let potentials: Vec<f64> = potentials.iter().zip(&wanted).map(|(p, wanted)| p * wanted).collect();
         drop(system);
         let mut is_flat = vec![true; soup.len()];
         elements.parents.iter().for_each(|parent| is_flat[*parent as usize] = false);
@@ -91,32 +131,19 @@ impl ElectricField {
             deviation: robin_hood::deviation(&potentials).0,
             potential: elements.frame.scale * potentials.iter().sum::<f64>() / potentials.len() as f64,
         };
-        Ok(ElectricField::charged(soup, elements, clusters, own, config.opening, element_charges, report))
-    }
-
-    #[allow(clippy::too_many_arguments, reason = "all that it is made of")]
-    fn charged(
-        soup: Arc<TriangleSoup>,
-        elements: Elements,
-        clusters: Clusters,
-        own: Vec<Moments>,
-        opening: Opening,
-        element_charges: Vec<f64>,
-        report: ChargeReport,
-    ) -> ElectricField {
         let mut charges = vec![0.0; soup.len()];
         elements.parents.iter().zip(&element_charges).for_each(|(t, charge)| charges[*t as usize] += charge);
-        ElectricField {
+        Ok(ElectricField {
             of_elements: series_of_elements(&own, &element_charges),
             of_clusters: clusters.series(&elements, &own, &element_charges),
             soup,
             elements,
             clusters,
-            opening,
+            opening: config.opening,
             element_charges,
             charges,
             report,
-        }
+        })
     }
 
     pub fn soup(&self) -> &Arc<TriangleSoup> {

@@ -20,10 +20,11 @@ pub struct Solution {
     pub steps: usize,
 }
 
-/// Charges that give the potential 1 at all barycentres, but for `tolerance`.
+/// Charges that give the `wanted` potentials, of size 1, at the barycentres, but for `tolerance`.
 pub fn solve(
     system: &dyn System,
     influence: &Influence,
+    wanted: &[f64],
     tolerance: f64,
     monitor: &dyn Monitor,
 ) -> Result<Solution, Cancelled> {
@@ -31,13 +32,13 @@ pub fn solve(
     let inverse = Clusters::new(influence);
     let mut charges = vec![0.0; len];
     let mut steps = 0;
-    let mut wanted = RMS_SHARE * tolerance;
+    let mut goal = RMS_SHARE * tolerance;
     let mut best = f64::INFINITY;
     loop {
         let residual: Vec<f64> = if steps == 0 {
-            vec![1.0; len]
+            wanted.to_vec()
         } else {
-            system.potentials(&charges).iter().map(|p| 1.0 - p).collect()
+            system.potentials(&charges).iter().zip(wanted).map(|(p, w)| w - p).collect()
         };
         let deviation = residual.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
         let is_stuck = steps > 0 && deviation > 0.5 * best;
@@ -48,14 +49,13 @@ pub fn solve(
         let norm = norm(&residual) / (len as f64).sqrt();
         let report = |rms: f64| {
             // Digits won, of those wanted.
-            let done = libm::log(rms.max(wanted)) / libm::log(wanted.min(0.5));
+            let done = libm::log(rms.max(goal)) / libm::log(goal.min(0.5));
             monitor.report(done.clamp(0.0, 1.0), "charges")
         };
-        let (change, taken) =
-            cycle(system, &inverse, residual, wanted / norm, &|share| report(share * norm))?;
+        let (change, taken) = cycle(system, &inverse, residual, goal / norm, &|share| report(share * norm))?;
         charges.iter_mut().zip(change).for_each(|(charge, change)| *charge += change);
         steps += taken;
-        wanted *= RMS_SHARE;
+        goal *= RMS_SHARE;
     }
 }
 

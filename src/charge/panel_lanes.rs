@@ -6,7 +6,7 @@ use wide::f32x8;
 pub type Lanes = [f32x8; 3];
 
 /// Lower than this above the plane, in longest edges, 32 bits do not tell the side.
-const LOW: f64 = 0.02;
+const LOW: f64 = 0.005;
 /// An edge counts as no nearer than this, in its lengths.
 const LEAST_DISTANCE: f32 = 1e-6;
 

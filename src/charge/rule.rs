@@ -42,7 +42,7 @@ impl Rule {
     }
 
     /// Number of points.
-    pub fn len(self) -> usize {
+    pub fn count(self) -> usize {
         match self {
             Rule::Two => 3,
             Rule::Four => 6,
@@ -74,7 +74,7 @@ mod tests {
     fn rules_integrate_polynomials_of_their_degree_and_avoid_the_barycentre() {
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         for (rule, degree) in [(Rule::Two, 2), (Rule::Four, 4), (Rule::Six, 6)] {
-            assert_eq!(rule.points(corners).count(), rule.len());
+            assert_eq!(rule.points(corners).count(), rule.count());
             let sum = |m: i32, n: i32| -> f64 {
                 rule.points(corners).map(|(w, p)| w * p.x.powi(m) * p.y.powi(n)).sum()
             };

@@ -20,7 +20,7 @@ pub struct Opening {
 
 impl Default for Opening {
     fn default() -> Self {
-        Opening { beta: 2.0, near: 1.5 }
+        Opening { beta: 2.0, near: 1.0 }
     }
 }
 

@@ -21,7 +21,7 @@ pub fn refined(soup: &TriangleSoup, monitor: &dyn Monitor) -> Result<Refined, Ca
     let welded = weld(soup.positions());
     let triangles: Vec<[u32; 3]> = soup.triangles().iter().map(|t| t.map(|v| welded[v as usize])).collect();
     let cut = arrange(soup.positions().to_vec(), &triangles, Pairs::All, monitor)?;
-    let (soup, mut warnings) = TriangleSoup::cleaned(cut.positions, cut.pieces.clone());
+    let (soup, mut warnings) = TriangleSoup::cleaned(cut.positions, cut.pieces);
     if cut.unresolved > 0 {
         warnings.push(Warning::new(WarningKind::CrossingFaces, cut.unresolved));
     }

@@ -4,6 +4,7 @@ mod charts;
 mod cuts;
 mod faces;
 mod flatten;
+mod merge;
 mod overlap;
 mod pack;
 mod seams;

@@ -2,6 +2,7 @@
 //! enough to be projected, compact, with seams where the surface bends most.
 use super::AtlasConfig;
 use super::faces::Faces;
+use super::merge::merge;
 use crate::data::{Cancelled, Monitor};
 use crate::math::Vec3;
 use std::cmp::Reverse;
@@ -17,6 +18,13 @@ const ADDING: usize = 24;
 const SETTLING: usize = 4;
 /// Weight of facing away from the axis, against distance from the middle in radii of the chart, where seeds are chosen.
 const FACING: f64 = 4.0;
+
+/// Share of the whole area from which a part that no chart reaches gets its own: dents and bumps are left to the charts around.
+const LEAST_PART: f64 = 1e-3;
+
+/// Degrees by which charts that are joined face closer to their axis than those that are grown: what is as wide as can be is also the
+/// most distorted.
+const CLOSER: f64 = 8.0;
 
 /// Triangles in charts.
 #[derive(Clone, Debug, Default)]
@@ -55,6 +63,8 @@ pub fn segment(faces: &Faces, config: &AtlasConfig, monitor: &dyn Monitor) -> Re
         found = grow(faces, &seeds, limit);
     }
     adopt_rest(faces, &mut found);
+    merge(faces, &mut found, libm::cos((config.cone_degrees - CLOSER).to_radians()));
+    separate(faces, &mut found);
     Ok(found)
 }
 
@@ -82,7 +92,7 @@ pub fn grow(faces: &Faces, seeds: &[(u32, Vec3)], limit: f64) -> Segments {
     Segments { charts, count: seeds.len() as u32 }
 }
 
-/// Of each connected part that belongs to no chart, the triangle farthest from all charts.
+/// Of each connected part that belongs to no chart, the triangle farthest from all charts; of small ones next to a chart none.
 fn deepest_of_unreached(faces: &Faces, charts: &[u32]) -> Vec<u32> {
     let mut depth = vec![f64::INFINITY; faces.len()];
     let mut queue: BinaryHeap<Entry> = BinaryHeap::new();
@@ -109,6 +119,7 @@ fn deepest_of_unreached(faces: &Faces, charts: &[u32]) -> Vec<u32> {
         }
     }
     // A part without a rim, a component that has no chart yet, begins at its first triangle.
+    let least = LEAST_PART * faces.areas.iter().sum::<f64>();
     let mut is_seen = vec![false; faces.len()];
     let mut deepest = Vec::new();
     for first in (0..faces.len() as u32).filter(|t| is_free(*t as usize)) {
@@ -117,7 +128,10 @@ fn deepest_of_unreached(faces: &Faces, charts: &[u32]) -> Vec<u32> {
         }
         is_seen[first as usize] = true;
         let (mut open, mut best) = (vec![first], first);
+        let (mut area, mut is_alone) = (0.0, true);
         while let Some(t) = open.pop() {
+            area += faces.areas[t as usize];
+            is_alone &= faces.neighbours(t).all(|n| is_free(n as usize));
             let (at, of_best) = (depth[t as usize], depth[best as usize]);
             if at.is_finite() && (at, Reverse(t)) > (of_best, Reverse(best)) {
                 best = t;
@@ -128,7 +142,9 @@ fn deepest_of_unreached(faces: &Faces, charts: &[u32]) -> Vec<u32> {
                 }
             }
         }
-        deepest.push(best);
+        if is_alone || area >= least {
+            deepest.push(best);
+        }
     }
     deepest
 }

@@ -2,7 +2,7 @@
 use crate::data::{Shape, SurfaceMesh, TriangleSoup};
 use crate::distance::DistanceTree;
 use crate::math::{Vec2, Vec3, area_vector};
-use crate::texture::jacobian::Rest;
+use crate::texture::jacobian::{Rest, polar};
 use crate::texture::{Anchor, Anchors, Atlas, Proxy, SoupLines};
 use glam::DQuat;
 use rustc_hash::FxHashMap;
@@ -42,6 +42,10 @@ impl Placed {
 
 /// A triangle with less than this share of the area that it should have counts as flat.
 const FLAT: f64 = 1e-6;
+
+/// A triangle across seams that is this many times as long as wide in the texture, against what it is in space, or as large or small, is
+/// better laid into a chart as it is.
+const SQUASHED: f64 = 8.0;
 
 fn signed_area([a, b, c]: [Vec2; 3]) -> f64 {
     0.5 * (b - a).perp_dot(c - a)
@@ -112,7 +116,7 @@ impl<'a> Charts<'a> {
             true => nearer(nearer(candidate(charts[0]), candidate(charts[1])), candidate(charts[2])),
         };
         let (chart, moved, uv, _) = best;
-        let is_bad = is_flat(uv);
+        let is_bad = is_flat(uv) || is_across && self.is_squashed(corners, uv);
         let outcome = match (is_bad, is_across) {
             (true, _) => Outcome::Unfolded,
             (false, true) => Outcome::Moved,
@@ -120,6 +124,14 @@ impl<'a> Charts<'a> {
         };
         let uv = if is_bad { self.unfolded(corners, &moved) } else { uv };
         Placed { uv, chart, outcome, is_across, is_folded: is_bad && !is_across }
+    }
+
+    /// Whether the closest points have left little of a triangle, or torn it apart.
+    fn is_squashed(&self, corners: [Vec3; 3], uv: [Vec2; 3]) -> bool {
+        let Some(rest) = Rest::new(corners) else { return false };
+        let [large, small] = polar(rest.jacobian(uv)).0.map(|s| s / self.atlas.scale);
+        let area = large * small;
+        large > SQUASHED * small || !(1.0 / SQUASHED..=SQUASHED).contains(&area)
     }
 
     /// The triangle as it is in space, turned by the least angle into the plane of the face that its first corner corresponds to, and

@@ -29,7 +29,7 @@ pub struct MappingReport {
     pub moved: usize,
     /// Triangles that were flipped, or flat, before anything was moved: those within one chart.
     pub folded: usize,
-    /// Triangles, flipped or flat even after moving, that were laid into a chart as they are in space; they may reach beyond it.
+    /// Triangles, flipped, squashed or torn after moving, that were laid into a chart as they are in space; they may reach beyond it.
     pub unfolded: usize,
     /// Triangles that are flipped at last, or flat.
     pub flipped: usize,
@@ -100,7 +100,7 @@ fn report(
     };
     let is_torn = |(t, placed): (usize, &Placed)| {
         let ratio = placed.area_ratio(soup.corners(t), atlas.scale);
-        ratio.is_some_and(|r| r > MappingReport::TORN || r < 1.0 / MappingReport::TORN)
+        ratio.is_some_and(|r| !(1.0 / MappingReport::TORN..=MappingReport::TORN).contains(&r))
     };
     let distortion = distortion(placed.iter().enumerate().map(|(t, p)| (soup.corners(t), p.uv)));
     let mut found = MappingReport {

@@ -11,19 +11,18 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Eq. 9 of the paper as it stands: a sum over 12 points of each triangle, in f64.
-struct Points(Vec<(f64, Vec3)>);
+/// Eq. 9 of the paper as it stands: a sum over the points of each triangle, in f64.
+pub struct Points(Vec<(f64, Vec3)>);
 
 impl Points {
-    fn of(field: &ElectricField) -> Points {
+    pub fn of(field: &ElectricField, rule: Rule) -> Points {
         let soup = field.soup();
-        let charged = |t: usize| {
-            Rule::Six.points(soup.corners(t)).map(move |(weight, y)| (weight * field.charges()[t], y))
-        };
+        let charged =
+            |t: usize| rule.points(soup.corners(t)).map(move |(weight, y)| (weight * field.charges()[t], y));
         Points((0..soup.len()).flat_map(charged).collect())
     }
 
-    fn field(&self, x: Vec3) -> Vec3 {
+    pub fn field(&self, x: Vec3) -> Vec3 {
         self.0
             .iter()
             .map(|(q, y)| {
@@ -71,7 +70,7 @@ pub fn potentials() {
     for (triangles, direct, fine, coarse) in POTENTIALS {
         let soup = Arc::new(shapes::torus_of(triangles));
         let (field, _) = timed(&soup, &ChargeConfig { refinement: None, ..Default::default() }, 1);
-        let points = Points::of(&field);
+        let points = Points::of(&field, Rule::Six);
         let centers: Vec<Vec3> =
             (0..soup.len()).map(|t| soup.corners(t).iter().sum::<Vec3>() / 3.0).collect();
         let median = |work: &dyn Fn()| {
@@ -157,7 +156,7 @@ pub fn rate() {
             (0..3).map(|_| seconds(|| lines = euler_lines(&field, &starts, &normals))).collect();
         times.sort_by(f64::total_cmp);
         let own = times[1];
-        let points = Points::of(&field);
+        let points = Points::of(&field, Rule::Six);
         let own_direct = (triangles <= MOST_DIRECTLY)
             .then(|| seconds(|| drop(std::hint::black_box(direct_lines(&points, &starts, &normals)))));
         if let (Some(own_direct), Some(direct)) = (own_direct, direct) {
