@@ -28,10 +28,15 @@ export const SIDES = { bottom: [0, 1], top: [2, 3], front: [4, 5], back: [6, 7],
 export function boxStl(min, max, { without = [], flipped = [] } = {}) {
   const all = BOX_FACES.flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]);
   const triangles = all.map(([a, b, c], k) => (flipped.includes(k) ? [a, c, b] : [a, b, c])).filter((_, k) => !without.includes(k));
+  return stl(triangles.map((corners) => corners.map((bits) => boxCorner(min, max, bits))));
+}
+
+/** Binary STL of triangles given by their corners. */
+function stl(triangles) {
   const bytes = Buffer.alloc(84 + 50 * triangles.length);
   bytes.writeUInt32LE(triangles.length, 80);
-  triangles.forEach((triangle, i) => {
-    triangle.flatMap((bits) => boxCorner(min, max, bits)).forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k));
+  triangles.forEach((corners, i) => {
+    corners.flat().forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k));
   });
   return bytes;
 }
@@ -46,4 +51,21 @@ export function sphereXyz(count, radius) {
     lines.push([ring * Math.cos(angle), ring * Math.sin(angle), z].map((value) => (radius * value).toFixed(6)).join(' '));
   }
   return Buffer.from(lines.join('\n'));
+}
+
+/** A closed sphere about the origin as binary STL, in so many rings from pole to pole, each of twice as many quadrilaterals. */
+export function sphereStl(radius, rings) {
+  const at = (i, j) => {
+    const [down, around] = [(Math.PI * i) / rings, (Math.PI * j) / rings];
+    return [Math.sin(down) * Math.cos(around), Math.sin(down) * Math.sin(around), Math.cos(down)].map((value) => radius * value);
+  };
+  const triangles = [];
+  for (let i = 0; i < rings; i++) {
+    for (let j = 0; j < 2 * rings; j++) {
+      const [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+      if (i < rings - 1) triangles.push([a, b, c]);
+      if (i > 0) triangles.push([a, c, d]);
+    }
+  }
+  return stl(triangles);
 }

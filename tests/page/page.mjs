@@ -1,7 +1,7 @@
 /** What a person sees and does on the page, in words the tests can use. */
 import { readFile } from 'node:fs/promises';
 
-const FOLDS = ['check', 'repair', 'voxels', 'surface', 'offset', 'combine', 'print', 'engine'].map((name) => `${name}-block`);
+const FOLDS = ['check', 'repair', 'voxels', 'surface', 'offset', 'combine', 'texture', 'print', 'engine'].map((name) => `${name}-block`);
 
 /** Opens the page, with what folds unfolded, and waits until the first sample is shown with its layer. */
 export async function openPage(browser, url, { width = 1600, height = 900, unfolded = FOLDS } = {}) {

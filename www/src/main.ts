@@ -26,6 +26,7 @@ import { problemPanel } from './panels/problem.ts';
 import { repairPanel } from './panels/repair.ts';
 import { showPanel } from './panels/show.ts';
 import { surfacePanel, voxelPanel } from './panels/solid.ts';
+import { texturePanel } from './panels/texture.ts';
 import { problemOf } from './problem.ts';
 import { initialState } from './state.ts';
 import type { State } from './state.ts';
@@ -74,6 +75,7 @@ async function startEngine(): Promise<void> {
     surfacePanel(page);
     offsetPanel(page);
     combinePanel(page);
+    texturePanel(page);
     printPanel(page);
     fieldButton(page);
     jobControls(store, page.jobs);

@@ -4,9 +4,11 @@ import type { DefectKind } from './defects.ts';
 import type { PlaneDistances } from './distances.ts';
 import { UNMOVED } from './placement.ts';
 import type { Placement } from './placement.ts';
+import type { Picture } from './picture.ts';
 import type { MoveKind, Nozzle, Print, Recipe } from './print.ts';
 import type { Problem } from './problem.ts';
 import type { Combined, Offset, Repair, SurfaceMesh } from './results.ts';
+import type { Seam, Texturing } from './texture.ts';
 
 /** What is drawn of the model itself: positions relative to `origin`. */
 export interface Geometry {
@@ -92,7 +94,8 @@ export interface Job {
 }
 
 export const ITEMS = [
-  'model', 'boundary', 'normals', 'layer', 'defects', 'repaired', 'voxels', 'difference', 'surface', 'offset', 'second', 'combined', 'print',
+  'model', 'boundary', 'normals', 'layer', 'defects', 'repaired', 'voxels', 'difference', 'surface', 'offset', 'second', 'combined', 'proxy', 'fieldLines',
+  'textured', 'print',
 ] as const;
 /** What can be shown or hidden in the 3D view. */
 export type Item = (typeof ITEMS)[number];
@@ -119,6 +122,17 @@ export interface State {
   placement: Placement;
   gizmo: GizmoMode;
   combined?: Timed<Combined>;
+  texture?: Timed<Texturing>;
+  /** Drawn on the proxy by the person; the charts are cut along them when they are laid flat again. */
+  seams: readonly Seam[];
+  /** The vertex of the proxy that the next seam starts at. */
+  seamStart?: number;
+  /** Whether a click on the proxy marks a place for a seam. */
+  isDrawing: boolean;
+  /** What the texture shows; a checker unless chosen. */
+  picture?: Picture;
+  /** Whether something runs along the field lines. */
+  isFlowing: boolean;
   /** Ways of making voxels, side by side. */
   comparison?: Comparison;
   /** What meshes are saved as. */
@@ -152,6 +166,9 @@ export function initialState(): State {
     limits: { minimumThickness: 0.8, overhangAngle: 50 },
     placement: UNMOVED,
     gizmo: 'translate',
+    seams: [],
+    isDrawing: false,
+    isFlowing: false,
     meshFormat: 'stl',
     halves: false,
     cutAway: false,
@@ -176,6 +193,10 @@ export const NOTHING_MADE = {
   repair: undefined,
   offset: undefined,
   combined: undefined,
+  texture: undefined,
+  seams: [],
+  seamStart: undefined,
+  isDrawing: false,
   measure: undefined,
   print: undefined,
   isPlaying: false,

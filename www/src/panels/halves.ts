@@ -7,7 +7,7 @@ import type { Store } from '../store.ts';
 export function halvesButton(store: Store<State>): void {
   const button = byId<HTMLButtonElement>('halves');
   button.addEventListener('click', () => store.set({ halves: !store.state.halves }));
-  store.on(['repair', 'combined', 'offset', 'voxels', 'surface', 'visible', 'halves'], (state) => {
+  store.on(['repair', 'combined', 'texture', 'offset', 'voxels', 'surface', 'visible', 'halves'], (state) => {
     const made = madeOf(state);
     button.disabled = !made;
     button.title = made ? '' : 'Needs a surface or another result: make one first';

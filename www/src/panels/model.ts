@@ -1,8 +1,10 @@
 import { SAMPLES } from '../../samples/catalogue.ts';
 import { fileSource, open, reopen, sampleSource } from '../actions/open.ts';
+import { takePicture } from '../actions/picture.ts';
 import { openSecond } from '../actions/second.ts';
 import { byId, setFacts, setList } from '../dom.ts';
 import { acceptDrops } from '../drop.ts';
+import type { DropField } from '../drop.ts';
 import { bytes, count, milliseconds, significant } from '../format.ts';
 import type { Page, Unit } from '../page.ts';
 import { sentence } from '../problem.ts';
@@ -65,7 +67,13 @@ export function modelControls(page: Page): void {
     if (input.files?.[0]) void open(page, fileSource(input.files[0]));
     input.value = '';
   });
-  acceptDrops((file, isSecond) => void (isSecond ? openSecond(page, file) : open(page, fileSource(file))));
+  acceptDrops((file, field) => void take(page, file, field));
+}
+
+/** A file that was dropped. A textured model takes an image wherever it falls. */
+async function take(page: Page, file: File, field?: DropField): Promise<void> {
+  if (field === 'picture' || (page.store.state.texture && file.type.startsWith('image/'))) return takePicture(page, file);
+  return field === 'second' ? openSecond(page, file) : open(page, fileSource(file));
 }
 
 function factsOf({ shape, geometry, bounds, prepared, readMilliseconds, oriented }: Model): [string, string][] {

@@ -23,9 +23,9 @@ export function showPanel(store: Store<State>): void {
 }
 
 /** Shown in the list only when they are there. */
-const NEWER: ReadonlySet<Item> = new Set(['defects', 'repaired', 'difference', 'offset', 'second', 'combined'] as const);
+const NEWER: ReadonlySet<Item> = new Set(['defects', 'repaired', 'difference', 'offset', 'second', 'combined', 'proxy', 'fieldLines', 'textured'] as const);
 
-const EVERY = ['model', 'layer', 'defect', 'repair', 'voxels', 'comparison', 'surface', 'offset', 'second', 'combined', 'print', 'visible'] as const satisfies readonly (keyof State)[];
+const EVERY = ['model', 'layer', 'defect', 'repair', 'voxels', 'comparison', 'surface', 'offset', 'second', 'combined', 'texture', 'print', 'visible'] as const satisfies readonly (keyof State)[];
 
 interface Toggle {
   readonly row: HTMLElement;
@@ -41,7 +41,7 @@ function toggle(store: Store<State>, item: Item): Toggle {
   const swatch = document.createElement('span');
   const text = document.createElement('span');
   label.className = 'check';
-  swatch.className = ['boundary', 'normals', 'layer'].includes(item) ? 'swatch line' : 'swatch';
+  swatch.className = ['boundary', 'normals', 'layer', 'fieldLines'].includes(item) ? 'swatch line' : 'swatch';
   input.type = 'checkbox';
   input.dataset.item = item;
   input.addEventListener('change', () => store.set({ visible: { ...store.state.visible, [item]: input.checked } }));
@@ -50,7 +50,7 @@ function toggle(store: Store<State>, item: Item): Toggle {
   return { row, input, text, swatch };
 }
 
-function describe({ model, layer, defect, repair, voxels, comparison, surface, offset, second, combined, print }: State, item: Item): { isThere: boolean; label: string; token: string } {
+function describe({ model, layer, defect, repair, voxels, comparison, surface, offset, second, combined, texture, print }: State, item: Item): { isThere: boolean; label: string; token: string } {
   const isCloud = model?.shape.kind === 'cloud';
   switch (item) {
     case 'model':
@@ -77,6 +77,12 @@ function describe({ model, layer, defect, repair, voxels, comparison, surface, o
       return { isThere: second !== undefined, label: 'Second model', token: '--view-second' };
     case 'combined':
       return { isThere: combined !== undefined, label: 'Combined', token: '--view-front' };
+    case 'proxy':
+      return { isThere: texture !== undefined, label: 'Charts of the proxy', token: '--view-proxy' };
+    case 'fieldLines':
+      return { isThere: texture !== undefined, label: 'Field lines', token: '--view-field' };
+    case 'textured':
+      return { isThere: texture !== undefined, label: 'Textured', token: '--view-textured' };
     case 'print':
       return { isThere: print !== undefined, label: 'Print', token: '--print-outer-wall' };
   }

@@ -10,7 +10,7 @@ export function reveal(id: string): void {
 /** Whether a job can start; a button is then enabled. It also gets the focus back that it loses while its own job runs. */
 export function enableWhenUsable({ store }: Page, button: HTMLButtonElement, isPossible: (state: State) => boolean = () => true): void {
   let hadFocus = false;
-  store.on(['model', 'job', 'recipe', 'misfit', 'second', 'surface', 'repair', 'offset', 'combined'], (state) => {
+  store.on(['model', 'job', 'recipe', 'misfit', 'second', 'surface', 'repair', 'offset', 'combined', 'texture', 'seams'], (state) => {
     const { model, job } = state;
     hadFocus ||= document.activeElement === button;
     button.disabled = !model?.oriented || job !== undefined || !isPossible(state);

@@ -21,6 +21,7 @@ import { Preview } from './preview.ts';
 import { SOLIDS, solidObjects } from './solids.ts';
 import type { Solid } from './solids.ts';
 import { Stage } from './stage.ts';
+import { TexturingView } from './texturing.ts';
 
 const BOUNDARY_PIXELS = 2.5;
 
@@ -40,6 +41,7 @@ export class View {
   readonly #preview: Preview;
   readonly #inspector: Inspector;
   readonly #placing: Placing;
+  readonly #texturing: TexturingView;
   /** One plane, moved; the list is shared by all materials that are cut. */
   readonly #cutPlane = new Plane(new Vector3(0, 0, -1));
   #cut: Plane[] = [];
@@ -51,6 +53,7 @@ export class View {
     this.#preview = new Preview(store, this.#stage, this.#items.print);
     this.#inspector = new Inspector(store, this.#stage, this.#items.defects);
     this.#placing = new Placing(store, this.#stage, this.#items.second);
+    this.#texturing = new TexturingView(store, this.#stage, this.#items);
     this.#stage.beforeDraw(() => this.#followCamera());
     this.#followStore();
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-view]')) {
@@ -68,6 +71,7 @@ export class View {
     this.#preview.refresh();
     this.#inspector.refresh();
     this.#placing.refresh();
+    this.#texturing.refresh(this.#cut);
   }
 
   /** From below, the floor would hide what stands on it. */

@@ -1,0 +1,112 @@
+import { suggestOffset } from '../actions/texture.ts';
+import { byId, paintSlider } from '../dom.ts';
+import { length } from '../format.ts';
+import type { Page } from '../page.ts';
+import type { Mapping } from '../texture.ts';
+import { slider } from './slider.ts';
+import { enableWhenUsable } from './usable.ts';
+
+/** The slider's far end, as a part of the model's longest side. */
+const REACH = 0.15;
+
+/** More cells are made only where they are asked for. */
+const MOST_CELLS = 400;
+
+/** How the proxy is made; `changed` is called when the person has let go of something. */
+export function proxyFields(page: Page, changed: () => void): () => Mapping {
+  const { store } = page;
+  const offset = offsetField(page, changed);
+  const [auto, both] = ['texture-auto', 'texture-both'].map((id) => byId<HTMLInputElement>(id));
+  const [resolution, smoothing] = [slider('texture-resolution'), slider('texture-smoothing')];
+  const adapt = (): void => {
+    byId('texture-cells').hidden = auto.checked;
+  };
+  adapt();
+  auto.addEventListener('change', adapt);
+  for (const control of [auto, both, resolution, smoothing]) control.addEventListener('change', changed);
+  const sides = (): Mapping['sides'] => (both.checked ? 'both' : 'outer');
+
+  const suggest = byId<HTMLButtonElement>('texture-suggest');
+  const hint = byId('texture-suggested');
+  enableWhenUsable(page, suggest, ({ model }) => model?.shape.kind === 'soup');
+  suggest.addEventListener('click', () => {
+    const { model } = store.state;
+    void suggestOffset(page, sides()).then((least) => {
+      if (least === undefined || store.state.model !== model) return;
+      offset.set(upward(least));
+      hint.textContent = `From ${length(least)} on one proxy holds all parts together.`;
+      changed();
+    });
+  });
+  store.on(['model'], ({ model }) => {
+    hint.textContent = model ? `Usual is 3 % of the longest side, ${length(0.03 * longestSide(page))}. Smaller is closer to the model and takes longer.` : '';
+  });
+  return () => ({
+    offset: offset.value(),
+    // Given also where it is the usual one: a mapping keeps what it is not given.
+    resolution: auto.checked ? Math.min(MOST_CELLS, Math.ceil((2 * longestSide(page)) / offset.value())) : resolution.valueAsNumber,
+    smoothing: smoothing.valueAsNumber,
+    sides: sides(),
+  });
+}
+
+interface OffsetField {
+  value(): number;
+  set(millimetres: number): void;
+}
+
+/** Millimetres as a number, and a slider for them. */
+function offsetField(page: Page, changed: () => void): OffsetField {
+  const { store } = page;
+  const exact = byId<HTMLInputElement>('texture-exact');
+  const track = byId<HTMLInputElement>('texture-offset');
+  const usual = track.value;
+  const reach = (): number => REACH * longestSide(page);
+  const say = (): void => {
+    track.setAttribute('aria-valuetext', `${exact.value} millimetres`);
+    paintSlider(track);
+  };
+  const follow = (): void => {
+    exact.value = tidy((track.valueAsNumber / 100) * reach());
+    say();
+  };
+  const set = (millimetres: number): void => {
+    exact.value = tidy(millimetres);
+    track.valueAsNumber = (100 * millimetres) / reach();
+    say();
+  };
+  track.addEventListener('input', follow);
+  track.addEventListener('change', changed);
+  exact.addEventListener('change', () => {
+    if (!(exact.valueAsNumber > 0)) return follow();
+    set(exact.valueAsNumber);
+    changed();
+  });
+  let shape = store.state.model?.shape;
+  store.on(['model'], ({ model }) => {
+    if (model?.shape === shape && exact.value) return;
+    shape = model?.shape;
+    track.value = usual;
+    follow();
+  });
+  // A change that was cancelled, or failed, is taken back.
+  store.on(['job', 'texture'], ({ job, texture }) => {
+    if (!job && texture) set(texture.value.report.offset);
+  });
+  return { value: () => exact.valueAsNumber, set };
+}
+
+function longestSide({ store }: Page): number {
+  const { model } = store.state;
+  return model ? Math.max(...model.bounds.max.map((high, k) => high - model.bounds.min[k])) : 1;
+}
+
+/** With three digits, not less than it was. */
+function upward(millimetres: number): number {
+  const unit = 10 ** (Math.floor(Math.log10(millimetres)) - 2);
+  return Math.ceil(millimetres / unit) * unit;
+}
+
+function tidy(millimetres: number): string {
+  return String(Number(millimetres.toPrecision(3)));
+}
