@@ -147,8 +147,11 @@ mod tests {
                     let entry = influence.entry(target, source);
                     let exact = potential_and_field(elements.centers[target], elements.corners[source]).0
                         / elements.areas[source];
-                    let most = if integration == Integration::Exact { 1e-4 } else { 0.2 };
-                    assert!((entry / exact - 1.0).abs() < most, "{source} at {target}: {entry}, {exact}");
+                    // One rule for all is no closed form where a barycentre is next to one of its points.
+                    let distance = elements.centers[target].distance(elements.centers[source]);
+                    if integration == Integration::Exact || distance > 2.0 * elements.sizes[source] {
+                        assert!((entry / exact - 1.0).abs() < 1e-4, "{source} at {target}: {entry}, {exact}");
+                    }
                     // A block of places may take a better rule than one alone.
                     assert!((column[target] / entry - 1.0).abs() < 1e-4);
                     assert!(target < 32 || part[target - 32] == column[target]);
