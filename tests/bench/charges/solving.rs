@@ -8,6 +8,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Table 3 of the paper, as far as it is compared: triangles, iterations and seconds to 1e-7 and to 1e-10.
+///
+/// Its errors fall by 1 % with each iteration from the first on, on sphere, torus and cylinder alike: 229 iterations a decade
+/// (ln 10 / −ln 0.99), and 137 from 0.395 to 0.1. Exchanges of two charges (eqs. 6 and 8) do not: only elements that take part
+/// get another charge, and 2,199 exchanges leave at least 602 of 5,000 elements at what they had. So its counts are none to
+/// compare ours with, whose steps are such exchanges; one of its iterations takes about as long as one.
 const PAPER: [(&str, [(usize, f64); 2]); 4] = [
     ("sphere", [(1058, 0.68), (1745, 1.12)]),
     ("torus", [(1512, 0.97), (2199, 1.41)]),
