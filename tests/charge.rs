@@ -153,6 +153,12 @@ fn the_tree_solves_what_the_matrix_does() {
     // 8,192 triangles, and 2,048 of the same shape.
     let (large, small) = (solve(sphere(5), &as_is()), solve(sphere(4), &as_is()));
     assert_eq!(large.report().elements, 8192);
+    // 10⁻¹⁰ is less than what the tree is wrong by, which the report says; 10⁻⁴ is not.
+    assert!(!large.report().reached && large.report().deviation < 1e-4 && small.report().reached);
+    assert!(solve(sphere(5), &ChargeConfig { tolerance: 1e-4, ..as_is() }).report().reached);
+    let hasty = ChargeConfig { solver: Solver::RobinHood, most_steps: 5, ..as_is() };
+    let unfinished = solve(scaled(&sphere(2), Vec3::new(1.0, 0.5, 0.8), Vec3::ZERO), &hasty);
+    assert!(!unfinished.report().reached && unfinished.report().deviation > 1e-10);
     let soup = large.soup();
     for t in (0..soup.len()).step_by(97) {
         let at = large.direct(middle(soup.corners(t))).0;
@@ -196,6 +202,28 @@ fn the_field_by_the_tree_is_that_of_all_triangles() {
     }
     errors.sort_by(f64::total_cmp);
     assert!(errors[400] < 1e-3 && errors[799] < 2e-2, "{} {}", errors[400], errors[799]);
+}
+
+/// Ends of lines are asked for together, and what is far is interpolated from step to step.
+#[test]
+fn steps_of_lines_follow_the_field_of_all_triangles() {
+    let axes = Vec3::new(3.0, 2.0, 1.0);
+    let field = solve(scaled(&sphere(4), axes, Vec3::ZERO), &as_is());
+    let starts = field.soup().positions().to_vec();
+    let normals: Vec<Vec3> = starts.iter().map(|p| *p / (axes * axes)).collect();
+    let (integrator, step) = (Integrator::Euler, Some(0.01));
+    let config = LineConfig { integrator, steps: 60, step, start_offset: Some(0.01), ..Default::default() };
+    let lines = lines_of(&field, &starts, &normals, &config);
+    let mut errors: Vec<f64> = Vec::new();
+    for k in (0..lines.len()).step_by(17) {
+        for ends in lines.line(k)[1..].windows(2).step_by(3) {
+            let exact = field.direct(ends[0]).1.normalize();
+            errors.push(((ends[1] - ends[0]) / 0.01).distance(exact));
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let (median, largest) = (errors[errors.len() / 2], errors[errors.len() - 1]);
+    assert!(median < 1e-3 && largest < 2e-2, "{median} {largest}");
 }
 
 #[test]

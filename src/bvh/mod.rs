@@ -89,13 +89,25 @@ impl Bvh {
         &self,
         stack: &mut Stack<C>,
         root: C,
+        visit: impl FnMut(usize, C) -> (u32, [C; WIDTH]),
+        leaf: impl FnMut(usize, usize, C),
+    ) {
+        if !self.items.is_empty() {
+            self.traverse_below(0, stack, root, visit, leaf);
+        }
+    }
+
+    /// [`Bvh::traverse`] of the part of the tree below `node`.
+    pub fn traverse_below<C: Copy>(
+        &self,
+        node: u32,
+        stack: &mut Stack<C>,
+        root: C,
         mut visit: impl FnMut(usize, C) -> (u32, [C; WIDTH]),
         mut leaf: impl FnMut(usize, usize, C),
     ) {
         stack.clear();
-        if !self.items.is_empty() {
-            stack.push((0, root));
-        }
+        stack.push((node, root));
         while let Some((index, carried)) = stack.pop() {
             let (mut open, below) = visit(index as usize, carried);
             while open != 0 {

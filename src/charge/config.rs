@@ -83,6 +83,9 @@ pub struct ChargeReport {
     pub steps: usize,
     /// Largest deviation of the potential at a barycentre from the mean, relative to that.
     pub deviation: f64,
+    /// Whether that is as small as [`ChargeConfig::tolerance`] asks for. The solver stops before where further steps do not
+    /// lessen it: by the tree at what potentials by the tree are wrong, and after the most steps.
+    pub reached: bool,
     /// The potential of the surface.
     pub potential: f64,
 }

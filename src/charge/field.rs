@@ -6,6 +6,8 @@ use super::influence::Influence;
 use super::krylov;
 use super::moments::{Moments, Series};
 use super::panel::potential_and_field;
+use super::panel_lanes::Panel;
+use super::region::Held;
 use super::robin_hood;
 use super::sum::{Charged, Value, series_of_elements};
 use super::system::{Kept, Matrix, System};
@@ -37,6 +39,7 @@ pub struct ElectricField {
     opening: Opening,
     of_elements: Vec<Series>,
     of_clusters: Vec<Series>,
+    panels: Vec<Panel>,
     element_charges: Vec<f64>,
     charges: Vec<f64>,
     report: ChargeReport,
@@ -46,7 +49,7 @@ impl ElectricField {
     /// Charges a soup so that the potential is the same at the barycentres of all its triangles, or of their parts.
     ///
     /// Up to 6,000 elements the system is kept as a matrix and solved as exactly as asked for. More take the tree: their
-    /// deviation is that of potentials by the tree, some 10⁻⁵ of which are wrong.
+    /// deviation is that of potentials by the tree, some 10⁻⁵ of which are wrong; the report says whether it is as small as asked.
     ///
     /// # Errors
     /// If and only if no triangle has an area, a number of the configuration is out of its range, the system does not fit in
@@ -124,11 +127,13 @@ impl ElectricField {
         drop(system);
         let mut is_flat = vec![true; soup.len()];
         elements.parents.iter().for_each(|parent| is_flat[*parent as usize] = false);
+        let deviation = robin_hood::deviation(&potentials).0;
         let report = ChargeReport {
             elements: elements.len(),
             flat: is_flat.iter().filter(|flat| **flat).count(),
             steps: solution.steps,
-            deviation: robin_hood::deviation(&potentials).0,
+            deviation,
+            reached: deviation <= config.tolerance,
             potential: elements.frame.scale * potentials.iter().sum::<f64>() / potentials.len() as f64,
         };
         let mut charges = vec![0.0; soup.len()];
@@ -136,6 +141,9 @@ impl ElectricField {
         Ok(ElectricField {
             of_elements: series_of_elements(&own, &element_charges),
             of_clusters: clusters.series(&elements, &own, &element_charges),
+            panels: map_items(elements.len(), |i| {
+                Panel::new(elements.corners[i], elements.centers[i], elements.sizes[i])
+            }),
             soup,
             elements,
             clusters,
@@ -197,18 +205,32 @@ impl ElectricField {
     }
 
     /// Potential and field at up to [`BLOCK`] finite points that lie close together.
-    pub(super) fn at_block(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Value> {
+    fn at_block(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Value> {
+        let values = self.charged().at(&self.local_block(points), lists);
+        values.into_iter().map(|value| self.world(value)).collect()
+    }
+
+    /// The same for points that were asked for before, and have moved a little since.
+    pub(super) fn at_moving_block(&self, points: &[Vec3], held: &mut Held) -> Vec<Value> {
+        let values = held.at(&self.charged(), &self.local_block(points));
+        values.into_iter().map(|value| self.world(value)).collect()
+    }
+
+    fn local_block(&self, points: &[Vec3]) -> Block {
         let local: Vec<Vec3> = points.iter().map(|p| self.elements.frame.local(*p)).collect();
-        let charged = Charged {
+        Block::new(&local)
+    }
+
+    fn charged(&self) -> Charged<'_> {
+        Charged {
             elements: &self.elements,
             clusters: &self.clusters,
             opening: self.opening,
             charges: &self.element_charges,
             of_clusters: &self.of_clusters,
             of_elements: &self.of_elements,
-        };
-        let values = charged.at(&Block::new(&local), lists);
-        values.into_iter().map(|value| self.world(value)).collect()
+            panels: &self.panels,
+        }
     }
 
     fn world(&self, (potential, field): Value) -> Value {

@@ -1,5 +1,6 @@
 //! Charges by GMRES: Saad & Schultz 1986, preconditioned from the right, so that residuals are those of the system itself.
 use super::influence::Influence;
+use super::robin_hood::deviation;
 use super::system::System;
 use crate::data::{Cancelled, Monitor, map_tasks};
 
@@ -35,12 +36,13 @@ pub fn solve(
     let mut goal = RMS_SHARE * tolerance;
     let mut best = f64::INFINITY;
     loop {
-        let residual: Vec<f64> = if steps == 0 {
-            wanted.to_vec()
+        let (residual, deviation) = if steps == 0 {
+            (wanted.to_vec(), 1.0)
         } else {
-            system.potentials(&charges).iter().zip(wanted).map(|(p, w)| w - p).collect()
+            let potentials = system.potentials(&charges);
+            let signed: Vec<f64> = potentials.iter().zip(wanted).map(|(p, w)| p * w).collect();
+            (potentials.iter().zip(wanted).map(|(p, w)| w - p).collect(), deviation(&signed).0)
         };
-        let deviation = residual.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
         let is_stuck = steps > 0 && deviation > 0.5 * best;
         best = best.min(deviation);
         if deviation <= tolerance || steps >= MOST_STEPS || is_stuck || deviation.is_nan() {

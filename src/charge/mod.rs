@@ -16,6 +16,7 @@ mod moments;
 mod multipole;
 mod panel;
 mod panel_lanes;
+mod region;
 mod robin_hood;
 mod rule;
 mod sum;

@@ -5,7 +5,7 @@ use super::moments::{Moments, Series};
 use super::multipole::{SUMS, act};
 use super::panel::potential_and_field;
 use super::panel_lanes::Panel;
-use super::walk::{Block, LANES, Lists, Opening, bits};
+use super::walk::{Block, LANES, Lists, Opening, roots};
 use crate::math::{Floats, Registers, Vec3, Work, in_widest_registers};
 use crate::treecode::{Octet, parts};
 use wide::{f32x4, f32x8};
@@ -24,6 +24,7 @@ pub struct Charged<'a> {
     pub charges: &'a [f64],
     pub of_clusters: &'a [Series],
     pub of_elements: &'a [Series],
+    pub panels: &'a [Panel],
 }
 
 /// The series of the elements themselves.
@@ -37,9 +38,14 @@ pub fn series_of_elements(own: &[Moments], charges: &[f64]) -> Vec<Series> {
 }
 
 impl Charged<'_> {
-    /// Potential and field at the points of a block.
+    /// Potential and field at the points of a block of all elements.
     pub fn at(&self, block: &Block, lists: &mut Lists) -> Vec<Value> {
-        lists.find(block, self.elements, self.clusters, &self.opening);
+        self.below(block, roots(self.elements), lists)
+    }
+
+    /// The same of the elements below some clusters.
+    pub fn below(&self, block: &Block, below: impl Iterator<Item = u32>, lists: &mut Lists) -> Vec<Value> {
+        lists.find(block, self.elements, self.clusters, &self.opening, below);
         let mut values = vec![(0.0, Vec3::ZERO); block.points.len()];
         let mut far = vec![[Octet::ZERO; SUMS]; block.groups.len()];
         for order in [0, 1] {
@@ -47,7 +53,10 @@ impl Charged<'_> {
             add_far(block, &lists.clusters[order], centers, self.of_clusters, order, &mut far);
             add_far(block, &lists.elements[order], &self.elements.centers, self.of_elements, order, &mut far);
         }
-        lists.near.iter().for_each(|(i, groups)| self.add_near(block, *i as usize, *groups, &mut values));
+        let Lists { near, touching, .. } = lists;
+        touching.clear();
+        in_widest_registers(Near { charged: self, block, list: near, sums: &mut far, touching });
+        touching.iter().for_each(|(i, points)| self.add_near(block, *i as usize, *points, &mut values));
         for (k, value) in values.iter_mut().enumerate() {
             let [potential, x, y, z] = far[k / LANES].map(|sum| f64::from(sum.0[k % LANES]));
             value.0 += potential;
@@ -56,34 +65,40 @@ impl Charged<'_> {
         values
     }
 
-    /// An element next to some points of groups, exactly.
-    fn add_near(&self, block: &Block, i: usize, groups: u32, values: &mut [Value]) {
+    /// An element at the points next to it, exactly: eight at once, of whichever groups.
+    fn add_near(&self, block: &Block, i: usize, points: u64, values: &mut [Value]) {
         let (corners, center) = (self.elements.corners[i], self.elements.centers[i]);
-        let size = self.elements.sizes[i];
         let density = self.charges[i] / self.elements.areas[i];
-        let panel = Panel::new(corners, center, size);
-        let from = (center - block.center).to_array().map(|x| f32x8::splat(x as f32));
-        for g in bits(groups) {
-            let own = g * LANES..((g + 1) * LANES).min(block.points.len());
-            let group = &block.groups[g];
-            let is_wide = block.radius > WIDE * size;
+        let is_wide = is_wide(block, self.elements.sizes[i]);
+        let mut rest = points;
+        while rest != 0 {
+            let mut numbers = [0; LANES];
+            let mut count = 0;
+            while rest != 0 && count < LANES {
+                numbers[count] = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                count += 1;
+            }
+            let numbers = &numbers[..count];
             if is_wide {
-                own.for_each(|k| self.add_alone(block.points[k], i, density, &mut values[k]));
+                numbers.iter().for_each(|k| self.add_alone(block.points[*k], i, density, &mut values[*k]));
                 continue;
             }
-            let points = [0, 1, 2].map(|axis| f32x8::from(group.places[axis].0) - from[axis]);
-            let (potential, field, low) = panel.at(&points);
+            let offset = |lane: usize| block.points[numbers[lane.min(count - 1)]] - center;
+            let offsets: [Vec3; LANES] = std::array::from_fn(offset);
+            let lanes = [0, 1, 2].map(|axis| f32x8::from(offsets.map(|offset| offset[axis] as f32)));
+            let (potential, field, low) = self.panels[i].at(&lanes);
             let (potential, field) = (potential.to_array(), field.map(|f| f.to_array()));
-            for (lane, k) in own.enumerate() {
-                let value = &mut values[k];
-                if low >> lane & 1 == 0 {
-                    value.0 += density * f64::from(potential[lane]);
-                    value.1 += density * Vec3::from_array(field.map(|f| f64::from(f[lane])));
+            for (lane, k) in numbers.iter().enumerate() {
+                let value = &mut values[*k];
+                let (potential, field) = if low >> lane & 1 == 0 {
+                    let field = field.map(|f| f64::from(f[lane]));
+                    (f64::from(potential[lane]), Vec3::from_array(field))
                 } else {
-                    let (potential, field) = potential_and_field(block.points[k], corners);
-                    value.0 += density * potential;
-                    value.1 += density * field;
-                }
+                    potential_and_field(block.points[*k], corners)
+                };
+                value.0 += density * potential;
+                value.1 += density * field;
             }
         }
     }
@@ -100,6 +115,73 @@ impl Charged<'_> {
             let (potential, field) = potential_and_field(q, self.elements.corners[i]);
             value.0 += density * potential;
             value.1 += density * field;
+        }
+    }
+}
+
+fn is_wide(block: &Block, size: f64) -> bool {
+    block.radius > WIDE * size
+}
+
+/// Elements next to some points of groups, each point for itself: by their series where it is not so near, and the others told.
+struct Near<'a> {
+    charged: &'a Charged<'a>,
+    block: &'a Block,
+    list: &'a [(u32, u32)],
+    sums: &'a mut [[Octet; SUMS]],
+    touching: &'a mut Vec<(u32, u64)>,
+}
+
+impl Work for Near<'_> {
+    #[inline(always)]
+    fn run<R: Registers>(self) {
+        self.add::<R::Singles>();
+    }
+}
+
+impl Near<'_> {
+    #[inline(always)]
+    fn add<F: Floats<Number = f32>>(self) {
+        let Near { charged: Charged { elements, opening, of_elements, .. }, block, list, sums, touching } =
+            self;
+        let real = u64::MAX >> (u64::BITS as usize - block.points.len());
+        let every = (1 << F::COUNT) - 1;
+        for (source, groups) in list {
+            let i = *source as usize;
+            let center = (elements.centers[i] - block.center).to_array().map(|x| F::splat(x as f32));
+            let reach = (opening.near * elements.sizes[i]) as f32;
+            let reach_squared = F::splat(reach * reach);
+            let is_wide = is_wide(block, elements.sizes[i]);
+            let (mut near, mut rest) = (0, *groups);
+            while rest != 0 {
+                let g = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                for part in parts::<F>() {
+                    let place = |axis: usize| block.groups[g].places[axis].get::<F>(part) - center[axis];
+                    let offset = [place(0), place(1), place(2)];
+                    let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
+                    let far = if is_wide { 0 } else { square.greater(reach_squared) };
+                    near |= u64::from(every & !far) << (g * LANES + part);
+                    if far == 0 {
+                        continue;
+                    }
+                    let found = act::<F, 3>(&of_elements[i], offset);
+                    for (sum, found) in sums[g].iter_mut().zip(found) {
+                        if far == every {
+                            sum.add(part, found);
+                            continue;
+                        }
+                        let mut lanes = Octet::ZERO;
+                        lanes.put(0, found);
+                        for lane in (0..F::COUNT).filter(|lane| far >> lane & 1 == 1) {
+                            sum.0[part + lane] += lanes.0[lane];
+                        }
+                    }
+                }
+            }
+            if near & real != 0 {
+                touching.push((*source, near & real));
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use super::influence::{Influence, Places};
 use super::moments::Moments;
 use super::multipole::SUMS;
 use super::sum::add_far;
-use super::walk::{Block, LANES, Lists, Opening, bits};
+use super::walk::{Block, LANES, Lists, Opening, bits, roots};
 use crate::data::{BLOCK, Cancelled, Monitor, OutOfMemory, map_parts, map_tasks, zeroed};
 use crate::treecode::Octet;
 use std::borrow::Cow;
@@ -111,7 +111,7 @@ fn kept_block(influence: &Influence, clusters: &Clusters, index: usize) -> KeptB
     let targets = index * BLOCK..elements.len().min((index + 1) * BLOCK);
     let block = Block::new(&elements.centers[targets.clone()]);
     let mut lists = Lists::default();
-    lists.find(&block, elements, clusters, &OPENING);
+    lists.find(&block, elements, clusters, &OPENING, roots(elements));
     let mut near = Vec::new();
     for (source, groups) in &lists.near {
         for g in bits(*groups) {

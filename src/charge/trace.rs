@@ -1,8 +1,8 @@
 //! Lines of the field, followed from the surface outward: section 7.6.
 use super::ElectricField;
 use super::lines::{FieldLines, Integrator, LineConfig, LineError};
+use super::region::Held;
 use super::sum::Value;
-use super::walk::Lists;
 use crate::bvh::{morton_code, sorted_codes};
 use crate::data::{BLOCK, Monitor, map_items, map_tasks};
 use crate::math::{Aabb, Vec3};
@@ -15,14 +15,14 @@ const SHORTEST: f64 = 1.0 / 16.0;
 const REACH: f64 = 0.1;
 const OFFSET: f64 = 0.1;
 
-/// What gives potential and field at up to [`BLOCK`] points that lie close together.
+/// What gives potential and field at up to [`BLOCK`] points that lie close together and move on from call to call.
 pub(super) trait Source: Sync {
-    fn at_block(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Value>;
+    fn at_block(&self, points: &[Vec3], held: &mut Held) -> Vec<Value>;
 }
 
 impl Source for ElectricField {
-    fn at_block(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Value> {
-        ElectricField::at_block(self, points, lists)
+    fn at_block(&self, points: &[Vec3], held: &mut Held) -> Vec<Value> {
+        self.at_moving_block(points, held)
     }
 }
 
@@ -139,7 +139,7 @@ impl Line {
 impl Tracer<'_> {
     /// Lines that begin close together: they are asked for together at each step.
     fn block(&self, numbers: &[u32], starts: &[Vec3], directions: &[Vec3]) -> Vec<Vec<Vec3>> {
-        let mut lists = Lists::default();
+        let mut held = Held::default();
         let mut lines: Vec<Line> = (0..starts.len())
             .map(|k| {
                 let direction = directions[k].normalize_or_zero();
@@ -154,7 +154,7 @@ impl Tracer<'_> {
         let mut is_first = true;
         while !open.is_empty() {
             let at: Vec<Vec3> = open.iter().map(|k| lines[*k].end()).collect();
-            let mut fields = self.directions(&at, &mut lists);
+            let mut fields = self.directions(&at, &mut held);
             if is_first {
                 for (field, k) in fields.iter_mut().zip(&open) {
                     if field.dot(lines[*k].direction) <= 0.0 {
@@ -167,7 +167,7 @@ impl Tracer<'_> {
                 let steps = open.iter().zip(&fields).zip(&at);
                 let middles: Vec<Vec3> =
                     steps.map(|((k, field), at)| *at + 0.5 * lines[*k].step * *field).collect();
-                fields = self.directions(&middles, &mut lists);
+                fields = self.directions(&middles, &mut held);
             }
             let mut fields = fields.iter();
             open.retain(|k| self.advance(&mut lines[*k], *fields.next().expect("one for each line")));
@@ -175,8 +175,8 @@ impl Tracer<'_> {
         lines.into_iter().map(|line| line.points).collect()
     }
 
-    fn directions(&self, points: &[Vec3], lists: &mut Lists) -> Vec<Vec3> {
-        self.source.at_block(points, lists).into_iter().map(|(_, field)| field.normalize_or_zero()).collect()
+    fn directions(&self, points: &[Vec3], held: &mut Held) -> Vec<Vec3> {
+        self.source.at_block(points, held).into_iter().map(|(_, field)| field.normalize_or_zero()).collect()
     }
 
     /// Adds a point to a line; whether it goes on from there.

@@ -57,7 +57,7 @@ impl Block {
     }
 
     /// One bit for each group.
-    fn all(&self) -> u32 {
+    pub fn all(&self) -> u32 {
         (1 << self.groups.len()) - 1
     }
 }
@@ -68,6 +68,12 @@ fn ball(points: &[Vec3]) -> (Vec3, f64) {
     (center, farthest.sqrt())
 }
 
+/// The clusters below the root.
+pub fn roots(elements: &Elements) -> impl Iterator<Item = u32> {
+    let first = elements.bvh.nodes().first().map_or([Child::Empty; WIDTH], |root| root.children);
+    (0..WIDTH as u32).filter(move |k| first[*k as usize] != Child::Empty)
+}
+
 /// What acts on the groups of a block: numbers of clusters or elements, each with the groups as bits.
 #[derive(Default)]
 pub struct Lists {
@@ -76,30 +82,30 @@ pub struct Lists {
     pub elements: [Vec<(u32, u32)>; 2],
     /// Elements next to some point of a group.
     pub near: Vec<(u32, u32)>,
+    /// Elements and the points of the block that are near them, as bits.
+    pub touching: Vec<(u32, u64)>,
     stack: Stack<u32>,
 }
 
 impl Lists {
-    pub fn find(&mut self, block: &Block, elements: &Elements, clusters: &Clusters, opening: &Opening) {
-        let Lists { clusters: by_cluster, elements: by_element, near, stack } = self;
+    /// What acts on a block of all there is below some clusters.
+    pub fn find(
+        &mut self,
+        block: &Block,
+        elements: &Elements,
+        clusters: &Clusters,
+        opening: &Opening,
+        below: impl Iterator<Item = u32>,
+    ) {
+        let Lists { clusters: by_cluster, elements: by_element, near, stack, .. } = self;
         by_cluster.iter_mut().chain(by_element.iter_mut()).for_each(Vec::clear);
         near.clear();
-        let visit = |node: usize, groups: u32| {
-            let mut below = [0; WIDTH];
-            let mut open = 0;
-            for (k, child) in elements.bvh.nodes()[node].children.into_iter().enumerate() {
-                if child == Child::Empty {
-                    continue;
-                }
-                let c = WIDTH * node + k;
-                let reach = opening.beta * clusters.radii[c];
-                below[k] = groups & !sort(block, clusters.centers[c], reach, groups, c, by_cluster);
-                open |= u32::from(below[k] != 0) << k;
-            }
-            (open, below)
+        let (bvh, beta) = (&elements.bvh, opening.beta);
+        let rest = |c: usize, groups: u32, listed: &mut [Vec<(u32, u32)>; 2]| {
+            groups & !sort(block, clusters.centers[c], beta * clusters.radii[c], groups, c, listed)
         };
-        let leaf = |node: usize, k: usize, groups: u32| {
-            for i in elements.bvh.places(elements.bvh.nodes()[node].children[k]) {
+        let mut leaf = |node: usize, k: usize, groups: u32| {
+            for i in bvh.places(bvh.nodes()[node].children[k]) {
                 let reach = opening.near * elements.sizes[i];
                 let rest = groups & !sort(block, elements.centers[i], reach, groups, i, by_element);
                 if rest != 0 {
@@ -107,7 +113,29 @@ impl Lists {
                 }
             }
         };
-        elements.bvh.traverse(stack, block.all(), visit, leaf);
+        for c in below {
+            let (node, k) = (c as usize / WIDTH, c as usize % WIDTH);
+            let groups = rest(c as usize, block.all(), &mut *by_cluster);
+            match bvh.nodes()[node].children[k] {
+                _ if groups == 0 => {}
+                Child::Empty => {}
+                Child::Leaf { .. } => leaf(node, k, groups),
+                Child::Inner(inner) => {
+                    let visit = |node: usize, groups: u32| {
+                        let mut below = [0; WIDTH];
+                        let mut open = 0;
+                        for (k, child) in bvh.nodes()[node].children.into_iter().enumerate() {
+                            if child != Child::Empty {
+                                below[k] = rest(WIDTH * node + k, groups, &mut *by_cluster);
+                                open |= u32::from(below[k] != 0) << k;
+                            }
+                        }
+                        (open, below)
+                    };
+                    bvh.traverse_below(inner, stack, groups, visit, &mut leaf);
+                }
+            }
+        }
     }
 }
 

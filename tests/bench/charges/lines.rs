@@ -39,7 +39,7 @@ impl Points {
 }
 
 /// Vertices of a soup in use and the mean normals of the triangles around them.
-fn starts(soup: &TriangleSoup) -> (Vec<Vec3>, Vec<Vec3>) {
+pub fn starts(soup: &TriangleSoup) -> (Vec<Vec3>, Vec<Vec3>) {
     // Vertices of the torus's two seams are there twice: in the same place.
     let mut normals: std::collections::BTreeMap<[i64; 3], (Vec3, Vec3)> = Default::default();
     for t in 0..soup.len() {
@@ -113,7 +113,7 @@ const STEPS: usize = 50;
 /// All steps lead a twentieth of the torus's diameter away.
 const STEP: f64 = 0.15 / STEPS as f64;
 /// Up to so many triangles eq. 9 is summed too.
-const MOST_DIRECTLY: usize = 3200;
+const MOST_DIRECTLY: usize = 1600;
 
 fn euler_lines(field: &ElectricField, starts: &[Vec3], normals: &[Vec3]) -> FieldLines {
     let config =

@@ -5,7 +5,7 @@ use fast_winding::charge::{
     ChargeConfig, ElectricField, FieldLines, Integration, Integrator, LineConfig, Rule, first_hits, trace,
 };
 use fast_winding::data::Silent;
-use fast_winding::math::Vec3;
+use fast_winding::math::{Vec3, area_vector};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -14,6 +14,8 @@ const ALONG: usize = 4;
 const THICKNESS: f64 = 0.1;
 const STEP: f64 = 0.02;
 const STEPS: usize = 300;
+/// How far from the wall lines begin. The paper does not say.
+const OFFSETS: [f64; 5] = [0.002, 0.01, 0.03, 0.1, 0.2];
 
 /// 320 triangles of 160 vertices, radius 1, length 4; and the cells of the inside as a start and a normal.
 fn pipe() -> (TriangleSoup, Vec<Vec3>, Vec<Vec3>) {
@@ -43,45 +45,81 @@ fn pipe() -> (TriangleSoup, Vec<Vec3>, Vec<Vec3>) {
     (TriangleSoup::new(positions, triangles.collect()).expect("a pipe is a soup"), starts, normals)
 }
 
+/// The corners of the cells of the inside, each once, and the mean normals of the cells around them.
+fn corners_of(pipe: &TriangleSoup, cells: usize) -> (Vec<Vec3>, Vec<Vec3>) {
+    let mut corners: Vec<(Vec3, Vec3)> = Vec::new();
+    for t in 0..2 * cells {
+        let triangle = pipe.corners(t);
+        for corner in triangle {
+            let same = corners.iter_mut().find(|(other, _)| other.distance(corner) < 1e-9);
+            match same {
+                Some((_, normal)) => *normal += area_vector(triangle),
+                None => corners.push((corner, area_vector(triangle))),
+            }
+        }
+    }
+    corners.into_iter().unzip()
+}
+
+/// How many lines meet the wall after their second points.
+fn into_walls(lines: &FieldLines, pipe: &TriangleSoup) -> usize {
+    let mut free = FieldLines::default();
+    (0..lines.len()).for_each(|k| free.push(&lines.line(k)[1..]));
+    first_hits(&free, pipe).iter().filter(|hit| hit.is_some()).count()
+}
+
+/// Lines by eq. 9.
+fn by_points(points: &Points, starts: &[Vec3], normals: &[Vec3], offset: f64) -> FieldLines {
+    let mut lines = FieldLines::default();
+    for (start, normal) in starts.iter().zip(normals) {
+        let mut line = vec![*start, *start + offset * normal.normalize()];
+        for _ in 0..STEPS {
+            let from = *line.last().expect("a line has a start");
+            line.push(from + STEP * points.field(from).normalize());
+        }
+        lines.push(&line);
+    }
+    lines
+}
+
 pub fn through_walls() {
-    let (soup, starts, normals) = pipe();
+    let (soup, middles, normals) = pipe();
     let soup = Arc::new(soup);
-    println!(
-        "Figure 15: of {} lines from inside a pipe of {} triangles, those that meet its wall",
-        starts.len(),
-        soup.len()
-    );
-    let count = |lines: &FieldLines| {
-        let mut free = FieldLines::default();
-        (0..lines.len()).for_each(|k| free.push(&lines.line(k)[1..]));
-        first_hits(&free, &soup).iter().filter(|hit| hit.is_some()).count()
-    };
     let config = ChargeConfig { refinement: None, tolerance: 1e-10, ..Default::default() };
     let solve = |config: &ChargeConfig| {
         ElectricField::solve(soup.clone(), config, &Silent).expect("the pipe has an area")
     };
     let by_rule = solve(&ChargeConfig { integration: Integration::Quadrature, ..config });
-    for rule in [Rule::Two, Rule::Four, Rule::Six] {
-        let points = Points::of(&by_rule, rule);
-        let mut lines = FieldLines::default();
-        for (start, normal) in starts.iter().zip(&normals) {
-            let mut line = vec![*start, *start + 0.1 * STEP * *normal];
-            for _ in 0..STEPS {
-                let from = *line.last().expect("a line has a start");
-                line.push(from + STEP * points.field(from).normalize());
-            }
-            lines.push(&line);
+    let exact = [("exact", solve(&config)), ("exact, refined", solve(&ChargeConfig::default()))];
+    let (corners, corner_normals) = corners_of(&soup, middles.len());
+    for (name, starts, normals) in
+        [("corners", &corners, &corner_normals), ("middles of cells", &middles, &normals)]
+    {
+        println!(
+            "Figure 15: of {} lines from {name} inside a pipe of {} triangles, those that meet its wall, by how far from it they begin",
+            starts.len(),
+            soup.len()
+        );
+        println!("{:>24}{}", "", OFFSETS.map(|offset| format!("{offset:>8}")).concat());
+        for rule in [Rule::Two, Rule::Four, Rule::Six] {
+            let points = Points::of(&by_rule, rule);
+            let count = |offset: f64| into_walls(&by_points(&points, starts, normals, offset), &soup);
+            let counts = OFFSETS.map(|offset| format!("{:>8}", count(offset))).concat();
+            println!("{:>24}{counts}", format!("eq. 9, degree {rule:?}"));
         }
-        println!("  eq. 9, degree {rule:?}: {}", count(&lines));
-    }
-    for (name, field) in [("exact", solve(&config)), ("exact, refined", solve(&ChargeConfig::default()))] {
-        let config = LineConfig {
-            integrator: Integrator::Euler,
-            steps: STEPS,
-            step: Some(STEP),
-            ..Default::default()
-        };
-        let lines = trace(&field, &starts, &normals, &config, &Silent).expect("starts are good");
-        println!("  {name}: {}", count(&lines));
+        for (name, field) in &exact {
+            let count = |offset: f64| {
+                let config = LineConfig {
+                    integrator: Integrator::Euler,
+                    steps: STEPS,
+                    step: Some(STEP),
+                    start_offset: Some(offset),
+                    ..Default::default()
+                };
+                let lines = trace(field, starts, normals, &config, &Silent).expect("starts are good");
+                into_walls(&lines, &soup)
+            };
+            println!("{name:>24}{}", OFFSETS.map(|offset| format!("{:>8}", count(offset))).concat());
+        }
     }
 }
