@@ -9,7 +9,7 @@ use crate::data::BLOCK;
 use crate::math::{Aabb, Floats, Registers, Vec3, Work, in_widest_registers};
 use crate::treecode::{Octet, parts};
 
-/// Points of the polynomial along each axis. Of the torus of 25,600 triangles, 4 double the error of a line's field.
+/// Points of the polynomial along each axis.
 const ORDER: usize = 5;
 /// Clusters are far from a box when they are farther than this times its radius from its middle.
 const FAR: f64 = 2.0;
