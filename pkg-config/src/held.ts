@@ -20,7 +20,7 @@ export interface Caller {
 /** Options without those that the client itself heeds. */
 export function forEngine(options: object | undefined): unknown {
   const { signal, onProgress, onNormals, transfer, ...rest } = (options ?? {}) as Record<string, unknown>;
-  return rest;
+  return Object.fromEntries(Object.entries(rest).filter(([, value]) => value !== undefined));
 }
 
 export type View = Uint8Array | Uint32Array | Float32Array | Float64Array;

@@ -148,6 +148,15 @@ test('what a progress function throws comes out of the call', async () => {
   fw.dispose();
 });
 
+test('an option that is undefined is one that is not given', async () => {
+  const fw = await init({ threads: false });
+  const soup = await fw.open(boxObj());
+  const { patches } = await soup.orient({ method: undefined });
+  const { inside } = await soup.voxelize({ resolution: 4, method: undefined, threshold: undefined });
+  assert.deepEqual([patches, inside.length > 0], [1, true]);
+  fw.dispose();
+});
+
 test('inputs stay the caller’s unless handed over', async () => {
   const fw = await init({ threads: 2 });
   const kept = boxObj();
