@@ -108,9 +108,13 @@ function factsOf({ value: { report, lines }, milliseconds: time }: Timed<Texturi
 function say({ report: { mapping, warnings } }: Texturing): void {
   const { triangles, flipped, torn, acrossCharts, moved, unfolded } = mapping;
   const bad = flipped + torn;
-  byId('texture-verdict').dataset.rating = bad === 0 ? 'good' : bad <= 0.01 * triangles ? 'caution' : 'alarm';
+  const doubtful = bad + unfolded;
+  byId('texture-verdict').dataset.rating = doubtful === 0 ? 'good' : doubtful <= 0.01 * triangles ? 'caution' : 'alarm';
+  const fine = unfolded
+    ? `${plural(unfolded, 'triangle')} of ${count(triangles)} may reach beyond ${unfolded === 1 ? 'its chart' : 'their charts'}.`
+    : `All ${plural(triangles, 'triangle')} have their part of the picture.`;
   byId('texture-verdict-text').textContent =
-    bad === 0 ? `All ${plural(triangles, 'triangle')} have their part of the picture.` : `${plural(bad, 'triangle')} of ${count(triangles)} ${bad === 1 ? 'is' : 'are'} not textured well.`;
+    bad === 0 ? fine : `${plural(bad, 'triangle')} of ${count(triangles)} ${bad === 1 ? 'is' : 'are'} not textured well.`;
   const sentences: string[] = [];
   if (acrossCharts) sentences.push(`${plural(acrossCharts, 'triangle')} lay across seams; ${moved === acrossCharts ? 'all' : count(moved)} of them could be moved into one chart.`);
   if (unfolded) sentences.push(`${plural(unfolded, 'triangle')} that folded over ${unfolded === 1 ? 'was' : 'were'} laid flat by ${unfolded === 1 ? 'itself' : 'themselves'}.`);
