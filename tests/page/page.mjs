@@ -1,4 +1,5 @@
 /** What a person sees and does on the page, in words the tests can use. */
+import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 
 const FOLDS = ['check', 'repair', 'voxels', 'surface', 'offset', 'combine', 'texture', 'print', 'engine'].map((name) => `${name}-block`);
@@ -25,6 +26,21 @@ export async function settled(page) {
     const isIdle = document.getElementById('job').hidden && has('#facts dd');
     return isIdle && (has('#layer-download:enabled') || !document.getElementById('orient-block').hidden);
   });
+}
+
+/** Opens the page with a model as the bytes of an STL file, and closes it when the work is done: without an uncaught error. */
+export async function withModel({ browser, server }, bytes, work, options) {
+  const page = await openPage(browser, server.url, options);
+  try {
+    await dropFile(page, 'box.stl', bytes);
+    const triangles = String(bytes.readUInt32LE(80));
+    await page.waitForFunction((triangles) => document.querySelector('#facts dd').textContent === triangles, triangles);
+    await settled(page);
+    await work(page);
+    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
+  } finally {
+    await page.context().close();
+  }
 }
 
 /** The value beside a name in one of the lists of facts. */

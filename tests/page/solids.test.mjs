@@ -2,26 +2,14 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { SIDES, boxStl } from './models.mjs';
-import { dropFile, fact, number, openPage, picture, saved, settled, slide } from './page.mjs';
+import { dropFile, fact, number, picture, saved, settled, slide, withModel as onPage } from './page.mjs';
 import { served } from './site.mjs';
 
 const site = served();
 
 const BOX = boxStl([0, 0, 0], [40, 30, 20]);
 
-async function withModel(bytes, work) {
-  const page = await openPage(site.browser, site.server.url);
-  try {
-    await dropFile(page, 'box.stl', bytes);
-    const triangles = String(bytes.readUInt32LE(80));
-    await page.waitForFunction((triangles) => document.querySelector('#facts dd').textContent === triangles, triangles);
-    await settled(page);
-    await work(page);
-    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
-  } finally {
-    await page.context().close();
-  }
-}
+const withModel = (bytes, work) => onPage(site, bytes, work);
 
 /** Presses a button, and waits for the end of its job. */
 async function make(page, button, result) {

@@ -4,7 +4,7 @@ import { createRequire } from 'node:module';
 import { describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { boxStl, sphereStl, sphereXyz } from './models.mjs';
-import { dropFile, fact, openPage, outside, picture, saved, settled, slide } from './page.mjs';
+import { dropFile, fact, openPage, outside, picture, saved, settled, slide, withModel as onPage } from './page.mjs';
 import { served } from './site.mjs';
 
 const require = createRequire(new URL('../../www/package.json', import.meta.url));
@@ -14,19 +14,7 @@ const site = served();
 
 const BOX = boxStl([0, 0, 0], [40, 30, 20]);
 
-async function withModel(bytes, work, options) {
-  const page = await openPage(site.browser, site.server.url, { ...options, unfolded: ['texture-block'] });
-  try {
-    await dropFile(page, 'box.stl', bytes);
-    const triangles = String(bytes.readUInt32LE(80));
-    await page.waitForFunction((triangles) => document.querySelector('#facts dd').textContent === triangles, triangles);
-    await settled(page);
-    await work(page);
-    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
-  } finally {
-    await page.context().close();
-  }
-}
+const withModel = (bytes, work, options) => onPage(site, bytes, work, { ...options, unfolded: ['texture-block'] });
 
 async function idle(page) {
   await page.waitForSelector('#texture:enabled');

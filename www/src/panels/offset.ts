@@ -2,13 +2,14 @@ import { adopt } from '../actions/adopt.ts';
 import { makeHollow, makeOffset } from '../actions/offset.ts';
 import type { Cells } from '../actions/offset.ts';
 import { saveMesh } from '../actions/save.ts';
-import { byId, paintSlider, setFacts } from '../dom.ts';
+import { byId, setFacts } from '../dom.ts';
 import { count, milliseconds, significant, volume } from '../format.ts';
 import type { Page } from '../page.ts';
 import { volumeOf } from '../results.ts';
 import type { Offset } from '../results.ts';
 import { diagonal } from '../state.ts';
 import type { Timed } from '../state.ts';
+import { lengthField, tidy } from './length-field.ts';
 import { saver } from './saver.ts';
 import { slider } from './slider.ts';
 import { enableWhenUsable, reveal } from './usable.ts';
@@ -21,14 +22,20 @@ const WALLS = 0.02;
 /** Surfaces at a distance, and hollow models. */
 export function offsetPanel(page: Page): void {
   const { store } = page;
-  const distance = distanceField(page);
+  const distance = lengthField(page, {
+    exact: 'offset-exact',
+    track: 'offset-distance',
+    reach: () => REACH * (store.state.model ? diagonal(store.state.model.bounds) : 1),
+    accepts: Number.isFinite,
+    startsAnew: false,
+  });
   const resolution = slider('offset-resolution');
   const sharp = byId<HTMLInputElement>('offset-sharp');
   const [thickness, drain] = ['hollow-thickness', 'hollow-drain'].map((id) => byId<HTMLInputElement>(id));
   const cells = (): Cells => ({ resolution: resolution.valueAsNumber, isSharp: sharp.checked });
 
   byId('offset').addEventListener('click', () => {
-    if (Number.isFinite(distance.valueAsNumber)) void makeOffset(page, distance.valueAsNumber, cells());
+    if (Number.isFinite(distance.value())) void makeOffset(page, distance.value(), cells());
   });
   byId('hollow').addEventListener('click', () => {
     if (thickness.valueAsNumber > 0) void makeHollow(page, thickness.valueAsNumber, drain.valueAsNumber || 0, cells());
@@ -57,37 +64,6 @@ export function offsetPanel(page: Page): void {
     setFacts(byId('offset-facts'), offset ? factsOf(offset) : []);
     if (offset) reveal('offset-result');
   });
-}
-
-/** Millimetres as a number, and a slider for them that goes as far as makes sense for the model. */
-function distanceField({ store }: Page): HTMLInputElement {
-  const exact = byId<HTMLInputElement>('offset-exact');
-  const track = byId<HTMLInputElement>('offset-distance');
-  const reach = (): number => REACH * (store.state.model ? diagonal(store.state.model.bounds) : 1);
-  const say = (): void => {
-    track.setAttribute('aria-valuetext', `${exact.value} millimetres`);
-    paintSlider(track);
-  };
-  const follow = (): void => {
-    exact.value = tidy((track.valueAsNumber / 100) * reach());
-    say();
-  };
-  track.addEventListener('input', follow);
-  exact.addEventListener('change', () => {
-    if (!Number.isFinite(exact.valueAsNumber)) return follow();
-    track.valueAsNumber = (100 * exact.valueAsNumber) / reach();
-    say();
-  });
-  let shape = store.state.model?.shape;
-  store.on(['model'], ({ model }) => {
-    if (model?.shape !== shape || !exact.value) follow();
-    shape = model?.shape;
-  });
-  return exact;
-}
-
-function tidy(millimetres: number): string {
-  return String(Number(millimetres.toPrecision(3)));
 }
 
 function factsOf({ value: { mesh }, milliseconds: time }: Timed<Offset>): [string, string][] {

@@ -1,8 +1,10 @@
 import { suggestOffset } from '../actions/texture.ts';
-import { byId, paintSlider } from '../dom.ts';
+import { byId } from '../dom.ts';
 import { length } from '../format.ts';
 import type { Page } from '../page.ts';
 import type { Mapping } from '../texture.ts';
+import { lengthField } from './length-field.ts';
+import type { LengthField } from './length-field.ts';
 import { slider } from './slider.ts';
 import { enableWhenUsable } from './usable.ts';
 
@@ -50,50 +52,22 @@ export function proxyFields(page: Page, changed: () => void): () => Mapping {
   });
 }
 
-interface OffsetField {
-  value(): number;
-  set(millimetres: number): void;
-}
-
-/** Millimetres as a number, and a slider for them. */
-function offsetField(page: Page, changed: () => void): OffsetField {
+/** How far away the proxy is. */
+function offsetField(page: Page, changed: () => void): LengthField {
   const { store } = page;
-  const exact = byId<HTMLInputElement>('texture-exact');
-  const track = byId<HTMLInputElement>('texture-offset');
-  const usual = track.value;
-  const reach = (): number => REACH * longestSide(page);
-  const say = (): void => {
-    track.setAttribute('aria-valuetext', `${exact.value} millimetres`);
-    paintSlider(track);
-  };
-  const follow = (): void => {
-    exact.value = tidy((track.valueAsNumber / 100) * reach());
-    say();
-  };
-  const set = (millimetres: number): void => {
-    exact.value = tidy(millimetres);
-    track.valueAsNumber = (100 * millimetres) / reach();
-    say();
-  };
-  track.addEventListener('input', follow);
-  track.addEventListener('change', changed);
-  exact.addEventListener('change', () => {
-    if (!(exact.valueAsNumber > 0)) return follow();
-    set(exact.valueAsNumber);
-    changed();
-  });
-  let shape = store.state.model?.shape;
-  store.on(['model'], ({ model }) => {
-    if (model?.shape === shape && exact.value) return;
-    shape = model?.shape;
-    track.value = usual;
-    follow();
+  const field = lengthField(page, {
+    exact: 'texture-exact',
+    track: 'texture-offset',
+    reach: () => REACH * longestSide(page),
+    accepts: (millimetres) => millimetres > 0,
+    startsAnew: true,
+    changed,
   });
   // A change that was cancelled, or failed, is taken back.
   store.on(['job', 'texture'], ({ job, texture }) => {
-    if (!job && texture) set(texture.value.report.offset);
+    if (!job && texture) field.set(texture.value.report.offset);
   });
-  return { value: () => exact.valueAsNumber, set };
+  return field;
 }
 
 function longestSide({ store }: Page): number {
@@ -105,8 +79,4 @@ function longestSide({ store }: Page): number {
 function upward(millimetres: number): number {
   const unit = 10 ** (Math.floor(Math.log10(millimetres)) - 2);
   return Math.ceil(millimetres / unit) * unit;
-}
-
-function tidy(millimetres: number): string {
-  return String(Number(millimetres.toPrecision(3)));
 }
