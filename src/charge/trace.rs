@@ -167,7 +167,13 @@ impl Tracer<'_> {
                 let steps = open.iter().zip(&fields).zip(&at);
                 let middles: Vec<Vec3> =
                     steps.map(|((k, field), at)| *at + 0.5 * lines[*k].step * *field).collect();
-                fields = self.directions(&middles, &mut held);
+                let ahead = self.directions(&middles, &mut held);
+                // A charged surface between turns the field round: what leads to it is the field on this side.
+                for (field, ahead) in fields.iter_mut().zip(ahead) {
+                    if field.dot(ahead) >= 0.0 {
+                        *field = ahead;
+                    }
+                }
             }
             let mut fields = fields.iter();
             open.retain(|k| self.advance(&mut lines[*k], *fields.next().expect("one for each line")));

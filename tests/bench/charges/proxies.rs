@@ -34,7 +34,7 @@ pub fn proxies() {
         "Sections 12.2 and 7.3: seconds for a torus, and for tori around it at 5 % and at 3 % of its diameter"
     );
     println!(
-        "{:>9}{:>9} | monopole: {:>9}{:>9}{:>9}{:>9}{:>9} | dipole: {:>9}{:>9}{:>9}",
+        "{:>9}{:>9} | monopole: {:>9}{:>9}{:>9}{:>11}{:>9} | dipole: {:>9}{:>9}{:>9}",
         "triangles", "around", "charges", "lines", "hits", "hits, 3 %", "met", "charges", "lines", "met"
     );
     for triangles in SIZES {
@@ -58,7 +58,7 @@ pub fn proxies() {
         let (dipole_lines, dipole_tracing) = follow(&dipole);
         let dipole_met = count(&first_hits(&dipole_lines, &proxy)) as f64 / starts.len() as f64;
         println!(
-            "{triangles:>9}{:>9} |           {charges:>9.3}{tracing:>9.3}{hitting:>9.3}{again:>9.3}{met:>9} |         {dipole_charges:>9.3}{dipole_tracing:>9.3}{dipole_met:>9.3}",
+            "{triangles:>9}{:>9} |           {charges:>9.3}{tracing:>9.3}{hitting:>9.3}{again:>11.3}{met:>9} |         {dipole_charges:>9.3}{dipole_tracing:>9.3}{dipole_met:>9.3}",
             proxy.len()
         );
     }
