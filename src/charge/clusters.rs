@@ -12,7 +12,7 @@ const NODES_PER_TASK: usize = 64;
 pub struct Clusters {
     /// Middles of their areas.
     pub centers: Vec<Vec3>,
-    /// Distances from there to the farthest corners of their boxes.
+    /// No element of theirs is farther from there.
     pub radii: Vec<f64>,
 }
 
@@ -39,12 +39,26 @@ impl Clusters {
         }
         let centers: Vec<Vec3> =
             sums.iter().map(|(area, sum)| if *area > 0.0 { *sum / *area } else { Vec3::ZERO }).collect();
-        let radius = |c: usize| {
-            let bounds = nodes[c / WIDTH].bounds[c % WIDTH];
+        // Of leaves to their farthest corners; else to the farther of what the boxes and the parts tell.
+        let mut radii = vec![0.0; centers.len()];
+        for c in (0..centers.len()).rev() {
+            let (child, bounds) = (nodes[c / WIDTH].children[c % WIDTH], nodes[c / WIDTH].bounds[c % WIDTH]);
             let center = centers[c];
-            if bounds.is_empty() { 0.0 } else { (center - bounds.min).max(bounds.max - center).length() }
-        };
-        let radii = (0..centers.len()).map(radius).collect();
+            radii[c] = match child {
+                Child::Empty => 0.0,
+                Child::Leaf { .. } => {
+                    let corners = elements.bvh.places(child).flat_map(|i| elements.corners[i]);
+                    corners.map(|corner| corner.distance(center)).fold(0.0, f64::max)
+                }
+                Child::Inner(below) => {
+                    let first = WIDTH * below as usize;
+                    let reach = |k: usize| centers[k].distance(center) + radii[k];
+                    let by_parts =
+                        (first..first + WIDTH).filter(|k| radii[*k] > 0.0).map(reach).fold(0.0, f64::max);
+                    by_parts.min((center - bounds.min).max(bounds.max - center).length())
+                }
+            };
+        }
         Clusters { centers, radii }
     }
 

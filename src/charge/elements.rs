@@ -5,7 +5,7 @@ use crate::math::{Aabb, Vec3, area_vector, barycentre};
 use crate::treecode::Frame;
 
 /// Most elements in a leaf of the tree.
-const LEAF_SIZE: usize = 8;
+const LEAF_SIZE: usize = 4;
 
 /// How triangles are cut up before they are charged: at the middle of the longest edge, again and again.
 #[derive(Clone, Copy, Debug, PartialEq)]

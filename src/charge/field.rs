@@ -1,4 +1,5 @@
 //! A charged soup and its field.
+use super::cells::Cells;
 use super::clusters::Clusters;
 use super::config::{ChargeConfig, ChargeError, ChargeReport, Solver};
 use super::elements::Elements;
@@ -7,7 +8,6 @@ use super::krylov;
 use super::moments::{Moments, Series};
 use super::panel::potential_and_field;
 use super::panel_lanes::Panel;
-use super::region::Held;
 use super::robin_hood;
 use super::sum::{Charged, Value, series_of_elements};
 use super::system::{Kept, Matrix, System};
@@ -210,10 +210,16 @@ impl ElectricField {
         values.into_iter().map(|value| self.world(value)).collect()
     }
 
-    /// The same for points that were asked for before, and have moved a little since.
-    pub(super) fn at_moving_block(&self, points: &[Vec3], held: &mut Held) -> Vec<Value> {
-        let values = held.at(&self.charged(), &self.local_block(points));
+    /// The same at any finite points, with what is kept of former questions at points close to them.
+    pub(super) fn at_moving(&self, points: &[Vec3], cells: &mut Cells) -> Vec<Value> {
+        let local: Vec<Vec3> = points.iter().map(|p| self.elements.frame.local(*p)).collect();
+        let values = cells.at(&self.charged(), &local);
         values.into_iter().map(|value| self.world(value)).collect()
+    }
+
+    /// For [`ElectricField::at_moving`]: cubes with edges of at least `least`.
+    pub(super) fn cells(&self, least: f64) -> Cells {
+        Cells::new(self.elements.frame.scale * least)
     }
 
     fn local_block(&self, points: &[Vec3]) -> Block {

@@ -4,6 +4,7 @@
 //! A charge on each triangle makes the potential the same at all of their barycentres ([`ElectricField::solve`]); the field
 //! then leads from any point of the surface to any surface around it ([`trace`], [`first_hits`]), and no two lines cross.
 //! Coulomb's constant is 1: a charge q at a distance r has the potential q/r.
+mod cells;
 mod clusters;
 mod config;
 mod elements;
@@ -16,7 +17,7 @@ mod moments;
 mod multipole;
 mod panel;
 mod panel_lanes;
-mod region;
+mod polynomial;
 mod robin_hood;
 mod rule;
 mod sum;

@@ -40,12 +40,12 @@ pub fn series_of_elements(own: &[Moments], charges: &[f64]) -> Vec<Series> {
 impl Charged<'_> {
     /// Potential and field at the points of a block of all elements.
     pub fn at(&self, block: &Block, lists: &mut Lists) -> Vec<Value> {
-        self.below(block, roots(self.elements), lists)
+        lists.find(block, self.elements, self.clusters, &self.opening, roots(self.elements));
+        self.listed(block, lists)
     }
 
-    /// The same of the elements below some clusters.
-    pub fn below(&self, block: &Block, below: impl Iterator<Item = u32>, lists: &mut Lists) -> Vec<Value> {
-        lists.find(block, self.elements, self.clusters, &self.opening, below);
+    /// The same of what is listed for its groups.
+    pub fn listed(&self, block: &Block, lists: &Lists) -> Vec<Value> {
         let mut values = vec![(0.0, Vec3::ZERO); block.points.len()];
         let mut far = vec![[Octet::ZERO; SUMS]; block.groups.len()];
         for order in [0, 1] {
@@ -53,9 +53,9 @@ impl Charged<'_> {
             add_far(block, &lists.clusters[order], centers, self.of_clusters, order, &mut far);
             add_far(block, &lists.elements[order], &self.elements.centers, self.of_elements, order, &mut far);
         }
-        let Lists { near, touching, .. } = lists;
-        touching.clear();
-        in_widest_registers(Near { charged: self, block, list: near, sums: &mut far, touching });
+        let mut touching = Vec::new();
+        let near = Near { charged: self, block, list: &lists.near, sums: &mut far, touching: &mut touching };
+        in_widest_registers(near);
         touching.iter().for_each(|(i, points)| self.add_near(block, *i as usize, *points, &mut values));
         for (k, value) in values.iter_mut().enumerate() {
             let [potential, x, y, z] = far[k / LANES].map(|sum| f64::from(sum.0[k % LANES]));
@@ -152,7 +152,7 @@ impl Near<'_> {
             let reach = (opening.near * elements.sizes[i]) as f32;
             let reach_squared = F::splat(reach * reach);
             let is_wide = is_wide(block, elements.sizes[i]);
-            let (mut near, mut rest) = (0, *groups);
+            let (mut near, mut rest) = (0, *groups & block.all());
             while rest != 0 {
                 let g = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
@@ -225,25 +225,18 @@ impl Work for Far<'_> {
 impl Far<'_> {
     #[inline(always)]
     fn add<F: Floats<Number = f32>, const ORDER: usize>(self) {
-        for (source, groups) in self.list {
-            let series = &self.series[*source as usize];
-            let center = (self.centers[*source as usize] - self.block.center).to_array();
-            let center = center.map(|x| F::splat(x as f32));
-            let mut rest = *groups;
-            while rest != 0 {
-                let g = rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                let (places, sums) = (&self.block.groups[g].places, &mut self.sums[g]);
-                for part in parts::<F>() {
-                    let x = places[0].get::<F>(part) - center[0];
-                    let y = places[1].get::<F>(part) - center[1];
-                    let z = places[2].get::<F>(part) - center[2];
-                    let [potential, along_x, along_y, along_z] = act::<F, ORDER>(series, [x, y, z]);
-                    sums[0].add(part, potential);
-                    sums[1].add(part, along_x);
-                    sums[2].add(part, along_y);
-                    sums[3].add(part, along_z);
+        for (g, (group, sums)) in self.block.groups.iter().zip(self.sums).enumerate() {
+            for part in parts::<F>() {
+                let place = [0, 1, 2].map(|axis| group.places[axis].get::<F>(part));
+                let mut total = [F::splat(0.0); SUMS];
+                for (source, _) in self.list.iter().filter(|(_, groups)| groups >> g & 1 == 1) {
+                    let center = self.centers[*source as usize] - self.block.center;
+                    let center = center.to_array().map(|x| F::splat(x as f32));
+                    let offset = [0, 1, 2].map(|axis| place[axis] - center[axis]);
+                    let found = act::<F, ORDER>(&self.series[*source as usize], offset);
+                    total.iter_mut().zip(found).for_each(|(total, found)| *total = *total + found);
                 }
+                sums.iter_mut().zip(total).for_each(|(sum, total)| sum.add(part, total));
             }
         }
     }

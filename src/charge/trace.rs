@@ -1,30 +1,24 @@
 //! Lines of the field, followed from the surface outward: section 7.6.
 use super::ElectricField;
+use super::cells::Cells;
 use super::lines::{FieldLines, Integrator, LineConfig, LineError};
-use super::region::Held;
-use super::sum::Value;
 use crate::bvh::{morton_code, sorted_codes};
-use crate::data::{BLOCK, Monitor, map_items, map_tasks};
+use crate::data::{Monitor, map_items, map_tasks};
 use crate::math::{Aabb, Vec3};
 
 /// Blocks of lines between two reports to the monitor.
-const BLOCKS_PER_REPORT: usize = 16;
+const BLOCKS_PER_REPORT: usize = 8;
 /// Steps get no shorter than this share of the whole one.
 const SHORTEST: f64 = 1.0 / 16.0;
 /// All steps lead this share of the diagonal away, if not told otherwise.
 const REACH: f64 = 0.1;
 const OFFSET: f64 = 0.1;
-
-/// What gives potential and field at up to [`BLOCK`] points that lie close together and move on from call to call.
-pub(super) trait Source: Sync {
-    fn at_block(&self, points: &[Vec3], held: &mut Held) -> Vec<Value>;
-}
-
-impl Source for ElectricField {
-    fn at_block(&self, points: &[Vec3], held: &mut Held) -> Vec<Value> {
-        self.at_moving_block(points, held)
-    }
-}
+/// Lines that are followed together.
+const TOGETHER: usize = 512;
+/// Fewer lines are followed without cubes.
+const LEAST_IN_CUBES: usize = 32;
+/// A cube's edge takes at least so many steps.
+const STEPS_IN_CUBE: f64 = 4.0;
 
 /// Whether line `.0` ends with the segment from `.1` to `.2`.
 pub type Stop<'a> = &'a (dyn Fn(usize, Vec3, Vec3) -> bool + Sync);
@@ -59,23 +53,13 @@ pub fn trace_until(
     stop: Stop,
     monitor: &dyn Monitor,
 ) -> Result<FieldLines, LineError> {
-    follow(field, field.soup().bounds().diagonal(), [starts, directions], config, stop, monitor)
-}
-
-pub(super) fn follow(
-    source: &dyn Source,
-    diagonal: f64,
-    [starts, directions]: [&[Vec3]; 2],
-    config: &LineConfig,
-    stop: Stop,
-    monitor: &dyn Monitor,
-) -> Result<FieldLines, LineError> {
     if starts.len() != directions.len() {
         return Err(LineError::Lengths { starts: starts.len(), directions: directions.len() });
     }
     if let Some(k) = (0..starts.len()).find(|k| !(starts[*k].is_finite() && directions[*k].is_finite())) {
         return Err(LineError::NonFinite(k));
     }
+    let diagonal = field.soup().bounds().diagonal();
     let step = config.step.unwrap_or(REACH * diagonal / config.steps.max(1) as f64);
     let offset = config.start_offset.unwrap_or(OFFSET * step);
     for (name, value) in
@@ -87,8 +71,8 @@ pub(super) fn follow(
     }
     let bounds = Aabb::around(starts.iter().copied());
     let order = sorted_codes(map_items(starts.len(), |k| morton_code(starts[k], &bounds))).1;
-    let blocks: Vec<&[u32]> = order.chunks(BLOCK).collect();
-    let tracer = Tracer { source, config, step, offset, stop };
+    let blocks: Vec<&[u32]> = order.chunks(TOGETHER).collect();
+    let tracer = Tracer { field, config, step, offset, stop };
     let mut lines = vec![Vec::new(); starts.len()];
     for (n, some) in blocks.chunks(BLOCKS_PER_REPORT).enumerate() {
         monitor.report((n * BLOCKS_PER_REPORT) as f64 / blocks.len() as f64, "field lines")?;
@@ -112,7 +96,7 @@ pub(super) fn follow(
 }
 
 struct Tracer<'a> {
-    source: &'a dyn Source,
+    field: &'a ElectricField,
     config: &'a LineConfig,
     step: f64,
     offset: f64,
@@ -139,7 +123,7 @@ impl Line {
 impl Tracer<'_> {
     /// Lines that begin close together: they are asked for together at each step.
     fn block(&self, numbers: &[u32], starts: &[Vec3], directions: &[Vec3]) -> Vec<Vec<Vec3>> {
-        let mut held = Held::default();
+        let mut cells = self.cells(starts);
         let mut lines: Vec<Line> = (0..starts.len())
             .map(|k| {
                 let direction = directions[k].normalize_or_zero();
@@ -154,7 +138,7 @@ impl Tracer<'_> {
         let mut is_first = true;
         while !open.is_empty() {
             let at: Vec<Vec3> = open.iter().map(|k| lines[*k].end()).collect();
-            let mut fields = self.directions(&at, &mut held);
+            let mut fields = self.directions(&at, &mut cells);
             if is_first {
                 for (field, k) in fields.iter_mut().zip(&open) {
                     if field.dot(lines[*k].direction) <= 0.0 {
@@ -167,7 +151,7 @@ impl Tracer<'_> {
                 let steps = open.iter().zip(&fields).zip(&at);
                 let middles: Vec<Vec3> =
                     steps.map(|((k, field), at)| *at + 0.5 * lines[*k].step * *field).collect();
-                let ahead = self.directions(&middles, &mut held);
+                let ahead = self.directions(&middles, &mut cells);
                 // A charged surface between turns the field round: what leads to it is the field on this side.
                 for (field, ahead) in fields.iter_mut().zip(ahead) {
                     if field.dot(ahead) >= 0.0 {
@@ -181,8 +165,15 @@ impl Tracer<'_> {
         lines.into_iter().map(|line| line.points).collect()
     }
 
-    fn directions(&self, points: &[Vec3], held: &mut Held) -> Vec<Vec3> {
-        self.source.at_block(points, held).into_iter().map(|(_, field)| field.normalize_or_zero()).collect()
+    /// Cubes that are asked often enough: they hold some lines, and some steps of each.
+    fn cells(&self, starts: &[Vec3]) -> Cells {
+        let spacing = Aabb::around(starts.iter().copied()).diagonal() / (starts.len() as f64).sqrt();
+        let is_worth = starts.len() >= LEAST_IN_CUBES;
+        self.field.cells(if is_worth { spacing.max(STEPS_IN_CUBE * self.step) } else { f64::INFINITY })
+    }
+
+    fn directions(&self, points: &[Vec3], cells: &mut Cells) -> Vec<Vec3> {
+        self.field.at_moving(points, cells).into_iter().map(|(_, field)| field.normalize_or_zero()).collect()
     }
 
     /// Adds a point to a line; whether it goes on from there.

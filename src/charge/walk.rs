@@ -25,7 +25,7 @@ impl Default for Opening {
 }
 
 /// Farther than this times the distance where a series begins to be used, its octupole is left out.
-const WITHOUT_OCTUPOLE: f64 = 2.5;
+pub const WITHOUT_OCTUPOLE: f64 = 2.5;
 
 /// Eight points that are taken together.
 pub struct Group {
@@ -47,6 +47,11 @@ impl Block {
     /// Neighbours are to follow each other; all are finite.
     pub fn new(points: &[Vec3]) -> Block {
         let (center, radius) = ball(points);
+        Block::about(center, radius, points)
+    }
+
+    /// Points in a ball; their places are relative to its middle.
+    pub fn about(center: Vec3, radius: f64, points: &[Vec3]) -> Block {
         let group = |points: &[Vec3]| {
             let lane = |axis: usize, k: usize| (points[k.min(points.len() - 1)] - center)[axis] as f32;
             let places = [0, 1, 2].map(|axis| Octet(std::array::from_fn(|k| lane(axis, k))));
@@ -54,6 +59,12 @@ impl Block {
             Group { places, center, radius }
         };
         Block { points: points.to_vec(), center, radius, groups: points.chunks(LANES).map(group).collect() }
+    }
+
+    /// What acts on any points in a ball is found for it.
+    pub fn of_ball(center: Vec3, radius: f64) -> Block {
+        let places = [Octet::ZERO; 3];
+        Block { points: Vec::new(), center, radius, groups: vec![Group { places, center, radius }] }
     }
 
     /// One bit for each group.
@@ -82,12 +93,27 @@ pub struct Lists {
     pub elements: [Vec<(u32, u32)>; 2],
     /// Elements next to some point of a group.
     pub near: Vec<(u32, u32)>,
-    /// Elements and the points of the block that are near them, as bits.
-    pub touching: Vec<(u32, u64)>,
     stack: Stack<u32>,
 }
 
 impl Lists {
+    /// What acts on all groups of any blocks in a ball of all there is below some clusters.
+    pub fn of_ball(
+        center: Vec3,
+        radius: f64,
+        elements: &Elements,
+        clusters: &Clusters,
+        opening: &Opening,
+        below: impl Iterator<Item = u32>,
+    ) -> Lists {
+        let mut lists = Lists::default();
+        lists.find(&Block::of_ball(center, radius), elements, clusters, opening, below);
+        let Lists { clusters, elements, near, .. } = &mut lists;
+        let all = clusters.iter_mut().chain(elements).chain([near]).flatten();
+        all.for_each(|(_, groups)| *groups = u32::MAX);
+        lists
+    }
+
     /// What acts on a block of all there is below some clusters.
     pub fn find(
         &mut self,

@@ -130,10 +130,9 @@ fn direct_lines(points: &Points, starts: &[Vec3], normals: &[Vec3]) -> Vec<Vec3>
     (0..starts.len()).into_par_iter().map(line).collect()
 }
 
-/// Errors of fields at points of lines, relative to the exact one: median, 99 % and largest.
-fn errors(field: &ElectricField, at: &[Vec3], found: &[Vec3]) -> [f64; 3] {
-    let exact: Vec<Vec3> = at.par_iter().map(|x| field.direct(*x).1).collect();
-    let mut errors: Vec<f64> = found.iter().zip(&exact).map(|(f, e)| f.distance(*e) / e.length()).collect();
+/// Errors relative to what is exact: median, 99 % and largest.
+fn errors(exact: &[Vec3], found: &[Vec3]) -> [f64; 3] {
+    let mut errors: Vec<f64> = found.iter().zip(exact).map(|(f, e)| f.distance(*e) / e.length()).collect();
     errors.sort_by(f64::total_cmp);
     [errors.len() / 2, errors.len() * 99 / 100, errors.len() - 1].map(|k| errors[k])
 }
@@ -141,7 +140,7 @@ fn errors(field: &ElectricField, at: &[Vec3], found: &[Vec3]) -> [f64; 3] {
 pub fn rate() {
     println!("Table 5: lines from all vertices of a torus, {STEPS} steps by Euler's method, seconds");
     println!(
-        "{:>9} | paper: {:>9}{:>9}{:>9} | ours: {:>9}{:>9}{:>7} | scaled, paper θ = 0.4 / ours | errors (median, 99 %, largest): tree, eq. 9",
+        "{:>9} | paper: {:>9}{:>9}{:>9} | ours: {:>9}{:>9}{:>7} | scaled, paper θ = 0.4 / ours | errors (median, 99 %, largest): directions of steps; field by tree, eq. 9",
         "triangles", "θ = 0.4", "θ = 0.1", "direct", "direct", "tree", "rate"
     );
     let mut scale = None;
@@ -163,23 +162,29 @@ pub fn rate() {
             scale = Some(own_direct / direct);
         }
         let count = (40_000_000 / triangles).clamp(100, 2000);
-        let at: Vec<Vec3> = (0..count)
+        // Points of lines, and the steps from there.
+        let (at, steps): (Vec<Vec3>, Vec<Vec3>) = (0..count)
             .map(|k| {
                 let line = lines.line(k * lines.len() / count);
-                line[1 + (k * 7919) % (line.len() - 1)]
+                let n = 1 + (k * 7919) % (line.len() - 2);
+                (line[n], (line[n + 1] - line[n]) / STEP)
             })
-            .collect();
-        let by_tree = errors(&field, &at, &field.field(&at));
+            .unzip();
+        let exact: Vec<Vec3> = at.par_iter().map(|x| field.direct(*x).1).collect();
+        let directions: Vec<Vec3> = exact.iter().map(|field| field.normalize()).collect();
+        let of_steps = errors(&directions, &steps);
+        let by_tree = errors(&exact, &field.field(&at));
         let by_points: Vec<Vec3> = at.par_iter().map(|x| points.field(*x)).collect();
-        let by_points = errors(&field, &at, &by_points);
+        let by_points = errors(&exact, &by_points);
         let optional = |x: Option<f64>| x.map_or("".to_owned(), |x| format!("{x:.2}"));
         let rate = optional(before.map(|before| (own / before).log2()));
         let ratio = optional(scale.map(|scale| scale * coarse / own));
         let list = |e: [f64; 3]| e.map(|e| format!("{e:.1e}")).join(" ");
         println!(
-            "{triangles:>9} |        {coarse:>9}{fine:>9}{:>9} |       {:>9}{own:>9.3}{rate:>7} | {ratio:>28} | {}, {}",
+            "{triangles:>9} |        {coarse:>9}{fine:>9}{:>9} |       {:>9}{own:>9.3}{rate:>7} | {ratio:>28} | {}; {}, {}",
             optional(direct),
             optional(own_direct),
+            list(of_steps),
             list(by_tree),
             list(by_points)
         );
