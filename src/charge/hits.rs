@@ -1,13 +1,16 @@
 //! Where field lines meet a surface first.
 use super::FieldLines;
 use crate::bvh::{Bvh, FirstHit};
-use crate::data::{TriangleSoup, map_items, map_tasks};
+use crate::data::{Cancelled, Monitor, TriangleSoup, map_items, map_tasks};
 use crate::math::{Aabb, Ray, Vec3, area_vector};
 
 /// Most triangles in a leaf of the tree.
 const LEAF_SIZE: usize = 4;
 /// Lines that make a task.
 const LINES_PER_TASK: usize = 64;
+/// Tasks between two reports to the monitor.
+const TASKS_PER_REPORT: usize = 16;
+const STAGE: &str = "meeting the proxy";
 /// How much farther than its end a segment reaches, in its lengths: rounding must not lose what lies between two of them.
 const OVERLAP: f64 = 1e-9;
 
@@ -26,17 +29,32 @@ pub struct Hit {
 /// segment in the plane of a face does not meet it.
 ///
 /// Lines are cheap to follow again: for another surface around the same soup only this is to be called.
-pub fn first_hits(lines: &FieldLines, mesh: &TriangleSoup) -> Vec<Option<Hit>> {
+///
+/// # Errors
+/// If and only if `monitor` cancels.
+pub fn first_hits(
+    lines: &FieldLines,
+    mesh: &TriangleSoup,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Option<Hit>>, Cancelled> {
+    monitor.report(0.0, STAGE)?;
     let boxes = map_items(mesh.len(), |t| Aabb::around(mesh.corners(t)));
     let bvh = Bvh::build(&boxes, LEAF_SIZE);
-    let tasks = map_tasks(lines.len().div_ceil(LINES_PER_TASK), |task| {
-        let mut search = FirstHit::default();
-        let first = task * LINES_PER_TASK;
-        (first..lines.len().min(first + LINES_PER_TASK))
-            .map(|line| along(lines.line(line), mesh, &bvh, &mut search))
-            .collect::<Vec<_>>()
-    });
-    tasks.into_iter().flatten().collect()
+    let tasks = lines.len().div_ceil(LINES_PER_TASK);
+    let mut hits = Vec::with_capacity(lines.len());
+    for begun in (0..tasks).step_by(TASKS_PER_REPORT) {
+        monitor.report(begun as f64 / tasks as f64, STAGE)?;
+        let found = map_tasks(TASKS_PER_REPORT.min(tasks - begun), |task| {
+            let mut search = FirstHit::default();
+            let first = (begun + task) * LINES_PER_TASK;
+            (first..lines.len().min(first + LINES_PER_TASK))
+                .map(|line| along(lines.line(line), mesh, &bvh, &mut search))
+                .collect::<Vec<_>>()
+        });
+        hits.extend(found.into_iter().flatten());
+    }
+    monitor.report(1.0, STAGE)?;
+    Ok(hits)
 }
 
 fn along(points: &[Vec3], mesh: &TriangleSoup, bvh: &Bvh, search: &mut FirstHit) -> Option<Hit> {
@@ -66,6 +84,7 @@ fn weights(point: Vec3, corners: [Vec3; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::data::Silent;
 
     /// Two layers of a square of side 4 about the z axis, at z = 1 and z = 2.
     fn layers() -> TriangleSoup {
@@ -90,7 +109,7 @@ mod tests {
         let mut down = up(1.0, 0.5);
         down.reverse();
         let lines = lines(&[&up(1.0, 0.5), &down, &up(3.0, 0.0), &[], &[Vec3::ZERO], &up(-1.0, 1.0)]);
-        let hits = first_hits(&lines, &layers());
+        let hits = first_hits(&lines, &layers(), &Silent).unwrap();
         let met = |k: usize| hits[k].map(|hit| (hit.face, hit.segment));
         assert_eq!([0, 1, 2, 3, 4, 5].map(met), [Some((2, 3)), Some((0, 0)), None, None, None, Some((3, 3))]);
         let mesh = layers();
@@ -109,7 +128,7 @@ mod tests {
             let t = f64::from(k);
             let on = Vec3::new(1.9 * (1.7 * t).sin(), 1.9 * (2.3 * t).sin(), 1.0);
             let lean = Vec3::new((0.3 * t).cos(), (0.9 * t).sin(), 1.0);
-            let hits = first_hits(&lines(&[&[on - 0.1 * lean, on, on + 0.3 * lean]]), &mesh);
+            let hits = first_hits(&lines(&[&[on - 0.1 * lean, on, on + 0.3 * lean]]), &mesh, &Silent).unwrap();
             assert!(hits[0].is_some_and(|hit| hit.point.distance(on) < 1e-8), "{k}: {hits:?}");
         }
     }

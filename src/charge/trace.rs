@@ -35,7 +35,7 @@ pub type Stop<'a> = &'a (dyn Fn(usize, Vec3, Vec3) -> bool + Sync);
 /// noisy soup, it first follows its direction.
 ///
 /// # Errors
-/// If and only if there is not one direction for each start, one is not finite, a length of the configuration is not positive,
+/// If and only if there is not one direction for each start, one is not finite, [`LineConfig::check`] refuses the configuration,
 /// the lines have too many points, or `monitor` cancels.
 pub fn trace(
     field: &ElectricField,
@@ -76,14 +76,11 @@ pub(super) fn follow(
     if let Some(k) = (0..starts.len()).find(|k| !(starts[*k].is_finite() && directions[*k].is_finite())) {
         return Err(LineError::NonFinite(k));
     }
+    config.check()?;
     let step = config.step.unwrap_or(REACH * diagonal / config.steps.max(1) as f64);
     let offset = config.start_offset.unwrap_or(OFFSET * step);
-    for (name, value) in
-        [("step", step), ("start_offset", offset), ("largest_turn", config.largest_turn.unwrap_or(1.0))]
-    {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(LineError::BadLength { name, value });
-        }
+    if !(step > 0.0 && step.is_finite()) {
+        return Err(LineError::BadLength { name: "step", value: step });
     }
     let bounds = Aabb::around(starts.iter().copied());
     let order = sorted_codes(map_items(starts.len(), |k| morton_code(starts[k], &bounds))).1;
