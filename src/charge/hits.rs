@@ -128,7 +128,8 @@ mod tests {
             let t = f64::from(k);
             let on = Vec3::new(1.9 * (1.7 * t).sin(), 1.9 * (2.3 * t).sin(), 1.0);
             let lean = Vec3::new((0.3 * t).cos(), (0.9 * t).sin(), 1.0);
-            let hits = first_hits(&lines(&[&[on - 0.1 * lean, on, on + 0.3 * lean]]), &mesh, &Silent).unwrap();
+            let hits =
+                first_hits(&lines(&[&[on - 0.1 * lean, on, on + 0.3 * lean]]), &mesh, &Silent).unwrap();
             assert!(hits[0].is_some_and(|hit| hit.point.distance(on) < 1e-8), "{k}: {hits:?}");
         }
     }

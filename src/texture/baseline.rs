@@ -90,8 +90,7 @@ impl Projected {
     pub fn new(soup: &TriangleSoup, projection: Projection) -> Projected {
         let (places, turn) = projected(soup, projection);
         let none = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-        let (low, high) =
-            places.iter().flatten().fold(none, |(low, high), p| (low.min(*p), high.max(*p)));
+        let (low, high) = places.iter().flatten().fold(none, |(low, high), p| (low.min(*p), high.max(*p)));
         let size = (high - low).max_element();
         let scale = if size > 0.0 { 1.0 / size } else { 1.0 };
         let uv: Vec<[Vec2; 3]> = places.iter().map(|corners| corners.map(|p| scale * (p - low))).collect();
@@ -124,7 +123,11 @@ mod tests {
     fn a_tube_is_unrolled_by_a_cylinder_and_cut_by_axes_and_folded_by_a_plane() {
         let round = Projected::new(&tube(), Projection::Cylindrical);
         // Chords are shorter than their arcs by π² / (6 · 24²): nearly an isometry, all the way round.
-        assert!(round.distortion.mean_ratio < 1.003 && round.distortion.flipped == 0, "{:?}", round.distortion);
+        assert!(
+            round.distortion.mean_ratio < 1.003 && round.distortion.flipped == 0,
+            "{:?}",
+            round.distortion
+        );
         assert_eq!((round.seams.pieces, round.seams.length), (1, 0.0));
         let turn = round.turn.unwrap();
         assert!((turn / round.scale - TAU).abs() < 1e-12);
@@ -136,7 +139,13 @@ mod tests {
         let plane = Projected::new(&tube(), Projection::Planar);
         assert_eq!((plane.distortion.flipped + plane.distortion.flat >= 22, plane.turn), (true, None));
         for found in [&round, &axes, &plane] {
-            assert!(found.uv.iter().flatten().all(|p| p.cmpge(Vec2::ZERO).all() && p.cmple(Vec2::splat(1.0 + 1e-12)).all()));
+            assert!(
+                found
+                    .uv
+                    .iter()
+                    .flatten()
+                    .all(|p| p.cmpge(Vec2::ZERO).all() && p.cmple(Vec2::splat(1.0 + 1e-12)).all())
+            );
         }
     }
 
@@ -144,7 +153,11 @@ mod tests {
     fn a_ball_is_one_piece_on_a_sphere_and_worst_at_its_poles() {
         let at = |i: u32, j: u32| {
             let (polar, round) = (0.5 * TAU * f64::from(i) / 12.0, TAU * f64::from(j % 24) / 24.0);
-            Vec3::new(libm::sin(polar) * libm::cos(round), libm::sin(polar) * libm::sin(round), libm::cos(polar))
+            Vec3::new(
+                libm::sin(polar) * libm::cos(round),
+                libm::sin(polar) * libm::sin(round),
+                libm::cos(polar),
+            )
         };
         let quad = |k: u32| {
             let (i, j) = (k / 24, k % 24);

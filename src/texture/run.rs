@@ -1,9 +1,9 @@
 //! All stages in one call; each result is kept, so that a stage can be done again without those before it.
+use super::seams::seams_between_places;
 use super::{
     Anchors, Atlas, AtlasConfig, AtlasError, Distortion, Mapping, MappingReport, Proxy, ProxyConfig,
     ProxyError, Refined, Seams, SoupLines, SoupLinesConfig, SoupLinesError, apart_by_chart, refined,
 };
-use super::seams::seams_between_places;
 use crate::data::{Cancelled, Monitor, Parts, TriangleSoup, Warning};
 use crate::winding::{FieldConfig, WindingField};
 use serde::Serialize;
@@ -181,7 +181,8 @@ impl Texture {
     ) -> Result<Texture, TextureError> {
         let mapping = Mapping::new(&self.soup, &self.lines, &anchors, &proxy, &atlas, monitor)?;
         let Texture { soup, sources, lines, warnings, .. } = self;
-        let (soup, sources, lines, warnings) = (soup.clone(), sources.clone(), lines.clone(), warnings.clone());
+        let (soup, sources, lines, warnings) =
+            (soup.clone(), sources.clone(), lines.clone(), warnings.clone());
         Ok(Texture { soup, sources, proxy, atlas, lines, anchors, mapping, warnings })
     }
 

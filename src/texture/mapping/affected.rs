@@ -50,7 +50,8 @@ impl Affected {
         let is_lost = |t: usize| any(t, &|s| anchors.is_lost[s as usize]);
         let is_weak = |s: u32| lines.strength[s as usize] < MappingReport::WEAK;
         let mut weak = which(&|t, p| {
-            any(t, &is_weak) && (is_lost(t) || p.outcome == Outcome::Unfolded || ratio(t, p).is_some_and(is_torn))
+            any(t, &is_weak)
+                && (is_lost(t) || p.outcome == Outcome::Unfolded || ratio(t, p).is_some_and(is_torn))
         });
         let candidates: Vec<u32> =
             weak.iter().flat_map(|t| lines.starts.corners[*t as usize]).filter(|s| is_weak(*s)).collect();

@@ -91,7 +91,10 @@ impl<'a> Charts<'a> {
         let mut boxes = vec![[Vec2::INFINITY, Vec2::NEG_INFINITY]; atlas.chart_count];
         for (corners, chart) in atlas.corners.iter().zip(&atlas.charts) {
             let [low, high] = &mut boxes[*chart as usize];
-            corners.iter().map(|c| atlas.uv[*c as usize]).for_each(|p| (*low, *high) = (low.min(p), high.max(p)));
+            corners
+                .iter()
+                .map(|c| atlas.uv[*c as usize])
+                .for_each(|p| (*low, *high) = (low.min(p), high.max(p)));
         }
         let mut trees = Vec::with_capacity(of.len());
         for (k, (faces, is_needed)) in of.into_iter().zip(is_needed).enumerate() {
@@ -159,7 +162,11 @@ impl<'a> Charts<'a> {
             // Where it is larger than the box, middle on middle.
             let too_large = (most - least).cmpgt(high - low);
             let centred = 0.5 * (low + high - least - most);
-            let shift = Vec2::select(too_large, centred, (low - least).max(Vec2::ZERO) + (high - most).min(Vec2::ZERO));
+            let shift = Vec2::select(
+                too_large,
+                centred,
+                (low - least).max(Vec2::ZERO) + (high - most).min(Vec2::ZERO),
+            );
             uv.map(|p| p + shift)
         };
         let (least, most) = extent(uv);

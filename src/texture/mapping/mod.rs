@@ -98,12 +98,7 @@ pub fn transferred(values: &[Vec3], lines: &SoupLines, anchors: &Anchors, proxy:
     lines.starts.corners.iter().map(|corners| corners.map(at)).collect()
 }
 
-fn report(
-    anchors: &Anchors,
-    affected: &Affected,
-    distortion: Distortion,
-    triangles: usize,
-) -> MappingReport {
+fn report(anchors: &Anchors, affected: &Affected, distortion: Distortion, triangles: usize) -> MappingReport {
     let mut found = MappingReport {
         triangles,
         across_charts: affected.across.len(),
