@@ -4,12 +4,13 @@ mod common;
 use common::parts::{genus_five, gridded_cube, torn, wedge};
 use common::{cube, joined, sphere, topology, torus};
 use fast_winding::TriangleSoup;
+use fast_winding::charge::{LineError, Refinement};
 use fast_winding::data::{Silent, SurfaceMesh, WarningKind};
 use fast_winding::math::{Aabb, Vec2, Vec3, distance_to_triangle};
 use fast_winding::texture::{
-    Anchors, Atlas, AtlasConfig, AtlasError, Mapping, Proxy, ProxyConfig, ProxyError, ProxySides, SeamCost,
-    SoupLines, SoupLinesConfig, Texture, TextureConfig, TextureError, seam_through, smallest_single_offset,
-    texture, transferred,
+    Anchors, Atlas, AtlasConfig, AtlasError, Mapping, MappingReport, Proxy, ProxyConfig, ProxyError,
+    ProxySides, SeamCost, Seams, SoupLines, SoupLinesConfig, SoupLinesError, Texture, TextureConfig,
+    TextureError, seam_through, smallest_single_offset, texture, transferred,
 };
 use fast_winding::winding::{FieldConfig, WindingField};
 use std::sync::Arc;
@@ -26,9 +27,16 @@ fn at_offset(offset: f64) -> ProxyConfig {
     ProxyConfig { offset: Some(offset), ..ProxyConfig::default() }
 }
 
+/// A proxy at an offset; fewer charges and steps than by default, as these shapes are simple.
+fn quick(offset: f64) -> TextureConfig {
+    let mut lines = SoupLinesConfig::default();
+    lines.charge.refinement = Some(Refinement { least_parts: 400, ..Refinement::default() });
+    lines.line.steps = 24;
+    TextureConfig { proxy: at_offset(offset), lines, ..TextureConfig::default() }
+}
+
 fn textured(soup: TriangleSoup, offset: f64) -> Texture {
-    let config = TextureConfig { proxy: at_offset(offset), ..TextureConfig::default() };
-    texture(Arc::new(soup), &config, &Silent).unwrap()
+    texture(Arc::new(soup), &quick(offset), &Silent).unwrap()
 }
 
 fn moved(soup: &TriangleSoup, by: Vec3) -> TriangleSoup {
@@ -71,7 +79,15 @@ fn gaps_wider_than_two_offsets_give_several_proxies_and_the_least_offset_bridges
     assert_eq!(apart.components, 2);
     assert!(apart.warnings.iter().any(|w| w.kind == WarningKind::SeveralProxies && w.count == 2));
     assert!(apart.component.iter().all(|c| *c < 2) && apart.component.contains(&1));
-    let least = smallest_single_offset(&field(parts.clone()), ProxySides::Outer, &Silent).unwrap();
+    let told = std::cell::RefCell::new(Vec::new());
+    let hear = |fraction: f64, _: &str| {
+        told.borrow_mut().push(fraction);
+        true
+    };
+    let least = smallest_single_offset(&field(parts.clone()), ProxySides::Outer, &hear).unwrap();
+    let told = told.into_inner();
+    assert!(told.is_sorted() && told.iter().all(|f| (0.0..=1.0).contains(f)), "{told:?}");
+    assert!(told.iter().any(|f| (0.4..0.6).contains(f)), "{told:?}");
     // Half of the gap of 0.6, less half of a cell, an eighth of the offset.
     assert!(least > 0.3 / 1.125 / 1.04 && least < 0.3 * 1.05, "{least}");
     assert_eq!(proxy_of(parts.clone(), &at_offset(least)).components, 1);
@@ -94,6 +110,20 @@ fn bad_options_are_typed_errors() {
     assert_eq!(Proxy::new(&field(cube(1.0)), &few, &Silent), Err(ProxyError::TooFewSamples(1)));
     let none = texture(Arc::new(TriangleSoup::default()), &TextureConfig::default(), &Silent);
     assert_eq!(none, Err(TextureError::Proxy(ProxyError::NoTriangles)));
+    // Numbers are looked at before anything else: nothing is told of any work.
+    let refused = |config: TextureConfig| {
+        let no_work = |_: f64, stage: &str| -> bool { panic!("{stage}") };
+        texture(Arc::new(cube(1.0)), &config, &no_work).unwrap_err()
+    };
+    let mut config = TextureConfig::default();
+    config.lines.line.steps = usize::MAX;
+    let too_many = TextureError::Lines(SoupLinesError::Line(LineError::TooManySteps(usize::MAX)));
+    assert_eq!(refused(config.clone()), too_many);
+    config.lines.line.steps = 10;
+    config.lines.line.largest_turn = Some(-std::f64::consts::FRAC_PI_2);
+    assert!(refused(config.clone()).to_string().contains("-90 degrees"));
+    config.atlas.texels = 3;
+    assert_eq!(refused(config), TextureError::Atlas(AtlasError::BadTexels(3)));
     let mesh = proxy_of(cube(1.0), &at_offset(0.3)).mesh;
     let cone = AtlasConfig { cone_degrees: 95.0, ..AtlasConfig::default() };
     assert_eq!(Atlas::new(&mesh, &cone, &Silent), Err(AtlasError::BadCone(95.0)));
@@ -101,6 +131,8 @@ fn bad_options_are_typed_errors() {
     assert!(matches!(Atlas::new(&mesh, &small, &Silent), Err(AtlasError::DoesNotFit { charts: 6, .. })));
     let stop = |_: f64, stage: &str| stage != "atlas";
     assert!(matches!(Atlas::new(&mesh, &AtlasConfig::default(), &stop), Err(AtlasError::Cancelled(_))));
+    let wide = AtlasConfig { margin: u32::MAX, ..AtlasConfig::default() };
+    assert!(matches!(Atlas::new(&mesh, &wide, &Silent), Err(AtlasError::DoesNotFit { .. })));
     let sparse = ProxyConfig { samples: Some(9), ..at_offset(0.2) };
     let warnings = proxy_of(cube(1.0), &sparse).warnings;
     assert!(warnings.iter().any(|w| w.kind == WarningKind::CoarseProxy && w.count == 20), "{warnings:?}");
@@ -207,8 +239,10 @@ fn a_torn_cube_is_textured_as_the_whole_one() {
     let noisy = torn(&clean, 4e-3, 3);
     let whole = textured(clean.clone(), 0.12);
     // The same proxy and atlas for both: what differs is the correspondence.
-    let lines = SoupLines::new(&Arc::new(noisy.clone()), &SoupLinesConfig::default(), &Silent).unwrap();
-    let anchors = Anchors::new(&lines, &whole.proxy);
+    let mut config = SoupLinesConfig::default();
+    config.charge.refinement = None;
+    let lines = SoupLines::new(&Arc::new(noisy.clone()), &config, &Silent).unwrap();
+    let anchors = Anchors::new(&lines, &whole.proxy, &Silent).unwrap();
     let mapping = Mapping::new(&noisy, &lines, &anchors, &whole.proxy, &whole.atlas, &Silent).unwrap();
     assert_eq!((whole.mapping.report.flipped, mapping.report.flipped), (0, 0));
     assert_eq!((mapping.report.lost_lines, whole.mapping.report.lost_lines), (0, 0));
@@ -220,13 +254,47 @@ fn a_torn_cube_is_textured_as_the_whole_one() {
     // The noise is 4e-3 of the diagonal in the mean: the points that correspond are a few times as far apart, as lines spread.
     let noise = 4e-3 * clean.bounds().diagonal();
     assert!(mean < 4.0 * noise, "{mean} {noise}");
+    // So it is in the texture, but for triangles next to seams that lie in another chart.
+    let same: Vec<usize> =
+        (0..noisy.len()).filter(|t| mapping.charts[*t] == whole.mapping.charts[*t]).collect();
+    assert!(same.len() as f64 > 0.95 * noisy.len() as f64, "{} of {}", same.len(), noisy.len());
+    let apart = same.iter().map(|t| {
+        (0..3).map(|k| mapping.uv[*t][k].distance(whole.mapping.uv[*t][k])).fold(0.0, f64::max)
+            / whole.atlas.scale
+    });
+    let apart: Vec<f64> = apart.collect();
+    let mean = apart.iter().sum::<f64>() / apart.len() as f64;
+    assert!(mean < 6.0 * noise, "{mean} {noise}");
+    assert!(apart.iter().all(|a| *a < 40.0 * noise), "{:?}", apart.iter().fold(0.0, |m: f64, a| m.max(*a)));
+}
+
+#[test]
+fn a_cube_has_a_piece_for_each_side_and_its_edges_for_seams() {
+    let made = textured(gridded_cube(6), 0.1);
+    let report = made.report();
+    // Triangles along the edges have lines that meet two charts, and come to lie in that of their side.
+    assert_eq!((report.charts, report.mapping.unfolded), (6, 0), "{:?}", report.mapping);
+    let Seams { pieces, length } = report.seams;
+    assert!(pieces == 6 && (length - 24.0).abs() < 1e-9, "{pieces} {length}");
+    let affected = &made.mapping.affected;
+    assert_eq!(affected.moved, affected.across);
+    let on_edge = |t: &u32| {
+        made.soup
+            .corners(*t as usize)
+            .iter()
+            .any(|p| p.to_array().iter().filter(|x| x.abs() > 0.999).count() > 1)
+    };
+    assert!(!affected.across.is_empty() && affected.across.iter().all(on_edge));
 }
 
 #[test]
 fn another_proxy_keeps_the_lines() {
     let made = textured(sphere(6), 0.08);
     let other = made.with_proxy(&at_offset(0.15), &AtlasConfig::default(), &Silent).unwrap();
-    assert_eq!(made.lines, other.lines);
+    assert!(Arc::ptr_eq(&made.lines, &other.lines));
+    let same_proxy =
+        made.with_atlas(&AtlasConfig { texels: 256, ..AtlasConfig::default() }, &Silent).unwrap();
+    assert!(Arc::ptr_eq(&made.anchors, &same_proxy.anchors) && made.atlas.scale != same_proxy.atlas.scale);
     // Lines of a sphere are radial, so that both anchors of a start lie on one ray, at their offsets.
     for (near, far) in made.anchors.of_starts.iter().zip(&other.anchors.of_starts) {
         assert!(near.point.normalize().distance(far.point.normalize()) < 0.02);
@@ -234,6 +302,11 @@ fn another_proxy_keeps_the_lines() {
     }
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert_eq!(made, one_thread.install(|| textured(sphere(6), 0.08)));
+    let stop_at = |last: &'static str| move |_: f64, stage: &str| stage != last;
+    for stage in ["proxy components", "packing", "meeting the proxy", "texture"] {
+        let stopped = made.with_proxy(&at_offset(0.15), &AtlasConfig::default(), &stop_at(stage));
+        assert!(stopped.is_err(), "{stage} is told");
+    }
 }
 
 #[test]
@@ -293,7 +366,7 @@ fn triangles_that_cross_are_split_on_request() {
     let square = |x: Vec3, y: Vec3| [-x - y, x - y, x + y, -x + y];
     let places = [square(Vec3::X, Vec3::Y), square(Vec3::X, Vec3::Z)].concat();
     let soup = TriangleSoup::new(places, vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]).unwrap();
-    let config = TextureConfig { proxy: at_offset(0.15), refine: true, ..TextureConfig::default() };
+    let config = TextureConfig { refine: true, ..quick(0.15) };
     let made = texture(Arc::new(soup.clone()), &config, &Silent).unwrap();
     assert!(made.soup.len() > soup.len() && made.sources.len() == made.soup.len());
     // No part lies on both sides of the other square.
@@ -315,6 +388,12 @@ fn parts_that_overlap_get_one_texture() {
     let made = textured(joined(&[gridded_cube(4), bar]), 0.1);
     let report = made.report();
     assert_eq!((report.proxy_components, report.mapping.flipped), (1, 0));
+    // The bar's ends stick out; half of it is in the cube, where its lines lead nowhere: it is laid flat, in the texture.
+    let MappingReport { unfolded, lost_lines, weak_field, distortion, .. } = &report.mapping;
+    assert!(*unfolded > 0 && *lost_lines + unfolded > 8 && *weak_field == 0, "{:?}", report.mapping);
+    assert!(distortion.largest_ratio <= 8.0 && distortion.mean_ratio < 1.5, "{distortion:?}");
+    let is_within = |p: &Vec2| p.cmpge(Vec2::ZERO).all() && p.cmple(Vec2::ONE).all();
+    assert!(made.mapping.uv.iter().flatten().all(is_within));
     assert_eq!(topology(&made.proxy.mesh), (2, 0));
     let json = serde_json::to_value(&report).unwrap();
     assert!(json["mapping"]["acrossCharts"].is_u64() && json["proxyDistortion"]["meanRatio"].is_f64());

@@ -9,7 +9,7 @@ use crate::winding::{FieldConfig, WindingField};
 pub struct Affected {
     /// Their corners meet different charts.
     pub across: Vec<u32>,
-    /// Of those, put into one chart by the closest points of it.
+    /// Put into one chart by the closest points of it: of those across, and of those folded or squashed that another chart is in front of.
     pub moved: Vec<u32>,
     /// Flipped or flat where their lines meet one chart.
     pub folded: Vec<u32>,
@@ -63,7 +63,7 @@ impl Affected {
             folded: which(&|_, p| p.is_folded),
             squashed: which(&|_, p| p.is_squashed),
             unfolded: which(&|_, p| p.outcome == Outcome::Unfolded),
-            flipped: which(&|t, p| ratio(t, p).is_some_and(Placed::is_flat)),
+            flipped: which(&|t, p| p.is_flat(soup.corners(t), scale)),
             torn: which(&|t, p| ratio(t, p).is_some_and(is_torn)),
             lost: which(&|t, _| is_lost(t)),
             tangential: which(&|t, _| any(t, &|s| anchors.tangential.binary_search(&s).is_ok())),

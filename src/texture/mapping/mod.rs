@@ -1,14 +1,17 @@
 //! From the points of a proxy that a soup's corners correspond to, to their texture coordinates.
 mod affected;
+mod charts;
 mod correct;
+mod lay;
 
 pub use affected::Affected;
 
 use super::distortion::distortion;
 use super::{Anchors, Atlas, Distortion, Proxy, SoupLines};
-use crate::data::{Cancelled, Monitor, Parts, TriangleSoup, Warning, WarningKind, fill_in_blocks};
+use crate::data::{Cancelled, Monitor, Parts, TriangleSoup, Warning, WarningKind};
 use crate::math::{Vec2, Vec3};
-use correct::{Charts, Placed};
+use charts::Charts;
+use correct::all_placed;
 use serde::Serialize;
 
 /// The texture of a soup.
@@ -29,7 +32,7 @@ pub struct MappingReport {
     pub triangles: usize,
     /// Triangles whose corners meet different charts.
     pub across_charts: usize,
-    /// Of those, triangles put into one chart by the closest points of it.
+    /// Triangles put into one chart by the closest points of it.
     pub moved: usize,
     /// Triangles that were flipped, or flat, before anything was moved: those within one chart.
     pub folded: usize,
@@ -72,13 +75,8 @@ impl Mapping {
         monitor: &dyn Monitor,
     ) -> Result<Mapping, Cancelled> {
         let monitor = &Parts::new(monitor);
-        monitor.begin(0.0, 0.3);
-        let charts = Charts::new(proxy, atlas, lines, anchors, monitor)?;
-        let mut placed = vec![Placed::default(); soup.len()];
-        let corners = |t: usize| lines.starts.corners[t].map(|s| anchors.of_starts[s as usize]);
-        let place = |t: usize, _: &mut ()| charts.placed(soup.corners(t), corners(t));
-        monitor.begin(0.3, 0.9);
-        fill_in_blocks(&mut placed, place, "texture", monitor)?;
+        monitor.begin(0.0, 0.9);
+        let placed = all_placed(&mut Charts::new(proxy, atlas), soup, lines, anchors, monitor)?;
         monitor.begin(0.9, 1.0);
         let affected = Affected::new(soup, lines, anchors, atlas.scale, &placed, monitor)?;
         let distortion = distortion(placed.iter().enumerate().map(|(t, p)| (soup.corners(t), p.uv)));
