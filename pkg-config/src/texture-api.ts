@@ -68,7 +68,7 @@ export interface Distortion {
 /** What became of the soup's triangles. */
 export interface MappingReport {
   triangles: number;
-  /** Those whose corners meet different charts, and those put into one chart by its closest points. */
+  /** Those whose corners meet different charts, and of these those put into one of them by its closest points. */
   acrossCharts: number;
   moved: number;
   /** Those that were flipped, or flat, before anything was moved, within one chart. */
@@ -137,7 +137,7 @@ export interface TexturedGeometry {
 
 /** Triangles that did not simply go where their lines meet the proxy: lists of their numbers, ascending, in the soup that has the texture. */
 export interface AffectedTriangles {
-  /** Their corners meet different charts; they were put into one chart by its closest points. */
+  /** Their corners meet different charts; of these those put into one of them by its closest points. */
   across: Uint32Array;
   moved: Uint32Array;
   /** Flipped or flat where their lines meet one chart, or squashed there: 8 times as long as wide, or as large or small as they should be. */

@@ -1,7 +1,7 @@
 //! Where field lines meet a surface first.
 use super::FieldLines;
 use crate::bvh::{Bvh, FirstHit};
-use crate::data::{Cancelled, Monitor, TriangleSoup, map_items, map_tasks};
+use crate::data::{Cancelled, Monitor, Silent, TriangleSoup, map_items, map_tasks};
 use crate::math::{Aabb, Ray, Vec3, area_vector};
 
 /// Most triangles in a leaf of the tree.
@@ -29,10 +29,15 @@ pub struct Hit {
 /// segment in the plane of a face does not meet it.
 ///
 /// Lines are cheap to follow again: for another surface around the same soup only this is to be called.
+pub fn first_hits(lines: &FieldLines, mesh: &TriangleSoup) -> Vec<Option<Hit>> {
+    first_hits_with(lines, mesh, &Silent).expect("nobody cancels")
+}
+
+/// [`first_hits`], with reports to a monitor.
 ///
 /// # Errors
 /// If and only if `monitor` cancels.
-pub fn first_hits(
+pub fn first_hits_with(
     lines: &FieldLines,
     mesh: &TriangleSoup,
     monitor: &dyn Monitor,
@@ -84,7 +89,6 @@ fn weights(point: Vec3, corners: [Vec3; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::Silent;
 
     /// Two layers of a square of side 4 about the z axis, at z = 1 and z = 2.
     fn layers() -> TriangleSoup {
@@ -109,7 +113,7 @@ mod tests {
         let mut down = up(1.0, 0.5);
         down.reverse();
         let lines = lines(&[&up(1.0, 0.5), &down, &up(3.0, 0.0), &[], &[Vec3::ZERO], &up(-1.0, 1.0)]);
-        let hits = first_hits(&lines, &layers(), &Silent).unwrap();
+        let hits = first_hits(&lines, &layers());
         let met = |k: usize| hits[k].map(|hit| (hit.face, hit.segment));
         assert_eq!([0, 1, 2, 3, 4, 5].map(met), [Some((2, 3)), Some((0, 0)), None, None, None, Some((3, 3))]);
         let mesh = layers();
@@ -128,8 +132,7 @@ mod tests {
             let t = f64::from(k);
             let on = Vec3::new(1.9 * (1.7 * t).sin(), 1.9 * (2.3 * t).sin(), 1.0);
             let lean = Vec3::new((0.3 * t).cos(), (0.9 * t).sin(), 1.0);
-            let hits =
-                first_hits(&lines(&[&[on - 0.1 * lean, on, on + 0.3 * lean]]), &mesh, &Silent).unwrap();
+            let hits = first_hits(&lines(&[&[on - 0.1 * lean, on, on + 0.3 * lean]]), &mesh);
             assert!(hits[0].is_some_and(|hit| hit.point.distance(on) < 1e-8), "{k}: {hits:?}");
         }
     }

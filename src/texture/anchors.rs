@@ -1,6 +1,6 @@
 //! Where the lines of a soup meet a proxy: the point of it that each corner corresponds to (Schier et al. 2018, section 7.6).
 use super::{Proxy, SoupLines};
-use crate::charge::{FieldLines, Hit, first_hits};
+use crate::charge::{FieldLines, Hit, first_hits_with};
 use crate::data::{Cancelled, Monitor, Parts, Shape, fill_in_blocks};
 use crate::distance::DistanceTree;
 use crate::math::Vec3;
@@ -41,7 +41,7 @@ impl Anchors {
         let mesh = proxy.soup();
         let starts = &lines.starts;
         monitor.begin(0.0, 0.6);
-        let mut hits = first_hits(&lines.lines, &mesh, monitor)?;
+        let mut hits = first_hits_with(&lines.lines, &mesh, monitor)?;
         let replaced = replacements(lines, &hits);
         let reach = REACH * mesh.bounds().diagonal();
         let mut straight = FieldLines::default();
@@ -50,7 +50,7 @@ impl Anchors {
             straight.push(&[from, from + reach * *direction]);
         }
         monitor.begin(0.6, 0.8);
-        for ((start, _), hit) in replaced.iter().zip(first_hits(&straight, &mesh, monitor)?) {
+        for ((start, _), hit) in replaced.iter().zip(first_hits_with(&straight, &mesh, monitor)?) {
             hits[*start as usize] = hit.or(hits[*start as usize]);
         }
         let is_lost: Vec<bool> = hits.iter().map(|hit| hit.is_none()).collect();

@@ -2,7 +2,7 @@
 use super::{SoupLines, Texture};
 use crate::bvh::{morton_code, sorted_codes};
 use crate::charge::{FieldLines, first_hits};
-use crate::data::{Silent, TriangleSoup, map_items};
+use crate::data::{TriangleSoup, map_items};
 use crate::math::{Aabb, area_vector};
 
 impl Texture {
@@ -14,7 +14,7 @@ impl Texture {
         let mut whole = FieldLines::default();
         chosen.iter().for_each(|start| whole.push(self.lines.lines.line(*start as usize)));
         let mut lines = FieldLines::default();
-        let hits = first_hits(&whole, &self.proxy.soup(), &Silent).expect("nobody cancels");
+        let hits = first_hits(&whole, &self.proxy.soup());
         for (k, hit) in hits.into_iter().enumerate() {
             let start = chosen[k] as usize;
             let end = self.anchors.of_starts[start].point;

@@ -9,11 +9,12 @@ use crate::winding::{FieldConfig, WindingField};
 pub struct Affected {
     /// Their corners meet different charts.
     pub across: Vec<u32>,
-    /// Put into one chart by the closest points of it: of those across, and of those folded or squashed that another chart is in front of.
+    /// Of those, put into one chart by the closest points of it.
     pub moved: Vec<u32>,
-    /// Flipped or flat where their lines meet one chart.
+    /// Flipped or flat where their lines meet one chart; put into the one in front of them, if they lie well there.
     pub folded: Vec<u32>,
-    /// More than 8 times as long as wide, against what they are in space, or as large or small, where their lines meet one chart.
+    /// More than 8 times as long as wide, against what they are in space, or as large or small, where their lines meet one chart; put into
+    /// the one in front of them likewise.
     pub squashed: Vec<u32>,
     /// Laid into a chart as they are in space.
     pub unfolded: Vec<u32>,
@@ -59,7 +60,7 @@ impl Affected {
         weak.retain(|t| any(*t as usize, &|s| is_weak(s) && buried.binary_search(&s).is_err()));
         Ok(Affected {
             across: which(&|_, p| p.is_across),
-            moved: which(&|_, p| p.outcome == Outcome::Moved),
+            moved: which(&|_, p| p.is_across && p.outcome == Outcome::Moved),
             folded: which(&|_, p| p.is_folded),
             squashed: which(&|_, p| p.is_squashed),
             unfolded: which(&|_, p| p.outcome == Outcome::Unfolded),

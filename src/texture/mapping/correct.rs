@@ -1,7 +1,7 @@
 //! Triangles across seams: put into one chart by its closest points, whichever keeps the area best (Schier et al. 2018, section 8).
 //!
-//! At a corner of three charts a triangle's lines may all miss the chart in front of it: what is flipped or squashed is put into that
-//! one; and what is so there too, as it lies across a sharp edge, in a narrow place or inside of other parts, is laid flat.
+//! At a corner of three charts a triangle's lines may all miss the chart in front of it, which is tried too. What is flipped or squashed
+//! in each of them, as it lies across a sharp edge, in a narrow place or inside of other parts, is laid flat.
 use super::charts::Charts;
 use super::lay::laid;
 use crate::data::{Cancelled, Monitor, Parts, Shape, TriangleSoup, fill_in_blocks};
@@ -79,84 +79,105 @@ pub fn all_placed(
 ) -> Result<Vec<Placed>, Cancelled> {
     let monitor = &Parts::new(monitor);
     let of = |t: usize| lines.starts.corners[t].map(|s| anchors.of_starts[s as usize]);
-    monitor.begin(0.0, 0.2);
-    let met = |t: usize| of(t).map(|anchor| charts.chart(&anchor));
-    let across = (0..soup.len()).map(met).filter(|charts| *charts != [charts[0]; 3]);
-    let needed: Vec<u32> = across.flatten().collect();
-    charts.prepare(needed.into_iter(), monitor)?;
-    monitor.begin(0.2, 0.6);
     let mut all = vec![Placed::default(); soup.len()];
-    let place = |t: usize, _: &mut ()| placed(charts, soup.corners(t), of(t));
+    monitor.begin(0.0, 0.2);
+    let place = |t: usize, _: &mut ()| met(charts, soup.corners(t), of(t));
     fill_in_blocks(&mut all, place, "texture", monitor)?;
-
-    let bad: Vec<usize> = (0..all.len()).filter(|t| all[*t].outcome == Outcome::Unfolded).collect();
-    if bad.is_empty() {
+    let open: Vec<usize> = (0..all.len()).filter(|t| all[*t].outcome != Outcome::Met).collect();
+    if open.is_empty() {
         return Ok(all);
     }
-    monitor.begin(0.6, 0.7);
+    monitor.begin(0.2, 0.4);
+    let fronts = in_front(charts, soup, &open, monitor)?;
+    monitor.begin(0.4, 0.6);
+    let needed: Vec<u32> =
+        open.iter().zip(&fronts).flat_map(|(t, front)| candidates(charts, &all[*t], of(*t), front)).collect();
+    charts.prepare(needed.into_iter(), monitor)?;
+    monitor.begin(0.6, 1.0);
+    let mut moved = vec![Placed::default(); open.len()];
+    let place = |k: usize, _: &mut ()| {
+        corrected(charts, soup.corners(open[k]), of(open[k]), &fronts[k], all[open[k]])
+    };
+    fill_in_blocks(&mut moved, place, "texture", monitor)?;
+    open.into_iter().zip(moved).for_each(|(t, placed)| all[t] = placed);
+    Ok(all)
+}
+
+/// A triangle where its corners meet the proxy; what lies across charts or does not lie well is still to be corrected.
+fn met(charts: &Charts, corners: [Vec3; 3], anchors: [Anchor; 3]) -> Placed {
+    let scale = charts.atlas.scale;
+    let of_corners = anchors.map(|anchor| charts.chart(&anchor));
+    let mut placed =
+        Placed { uv: anchors.map(|anchor| charts.uv(&anchor)), chart: of_corners[0], ..Placed::default() };
+    placed.is_across = of_corners != [of_corners[0]; 3];
+    if !placed.is_across {
+        placed.is_folded = placed.is_flat(corners, scale);
+        placed.is_squashed = !placed.is_folded && placed.is_distorted(corners, scale);
+    }
+    if placed.is_across || placed.is_folded || placed.is_squashed {
+        placed.outcome = Outcome::Moved;
+    }
+    placed
+}
+
+/// The points of the proxy in front of some triangles: nearest to their middles, moved along their normals by the offset.
+fn in_front(
+    charts: &Charts,
+    soup: &TriangleSoup,
+    triangles: &[usize],
+    monitor: &dyn Monitor,
+) -> Result<Vec<Anchor>, Cancelled> {
     let proxy = charts.proxy;
     let whole = DistanceTree::new(&Shape::Soup(Arc::new(proxy.soup())));
-    let mut fronts = vec![Anchor::default(); bad.len()];
+    let mut fronts = vec![Anchor::default(); triangles.len()];
     let front = |k: usize, _: &mut ()| {
-        let corners = soup.corners(bad[k]);
+        let corners = soup.corners(triangles[k]);
         let ahead = barycentre(corners) + proxy.offset * area_vector(corners).normalize_or_zero();
         let nearest = whole.closest(ahead).unwrap_or_default();
         Anchor { face: nearest.element, barycentric: nearest.barycentric, point: nearest.point }
     };
     fill_in_blocks(&mut fronts, front, "texture", monitor)?;
-    monitor.begin(0.7, 0.8);
-    let needed: Vec<u32> = fronts.iter().map(|front| charts.chart(front)).collect();
-    charts.prepare(needed.into_iter(), monitor)?;
-    monitor.begin(0.8, 1.0);
-    let mut again = vec![Placed::default(); bad.len()];
-    let place =
-        |k: usize, _: &mut ()| in_front(charts, soup.corners(bad[k]), of(bad[k]), &fronts[k], all[bad[k]]);
-    fill_in_blocks(&mut again, place, "texture", monitor)?;
-    bad.into_iter().zip(again).for_each(|(t, placed)| all[t] = placed);
-    Ok(all)
+    Ok(fronts)
 }
 
-/// Where a triangle comes to lie whose corners correspond to `anchors`; what does not lie well there is still to be laid.
-fn placed(charts: &Charts, corners: [Vec3; 3], anchors: [Anchor; 3]) -> Placed {
-    let scale = charts.atlas.scale;
-    let met = anchors.map(|anchor| charts.chart(&anchor));
-    let is_across = met != [met[0]; 3];
-    let area = area_vector(corners).length() * scale * scale;
-    let candidate = |chart: u32| {
-        let uv = anchors.map(|anchor| charts.uv(&charts.closest(chart, &anchor)));
-        let outcome = if is_across { Outcome::Moved } else { Outcome::Met };
-        Placed { uv, chart, outcome, is_across, is_folded: false, is_squashed: false }
-    };
-    let difference = |placed: &Placed| (signed_area(placed.uv) - area).abs();
-    let nearer = |a: Placed, b: Placed| if difference(&b) < difference(&a) { b } else { a };
-    let mut best = candidate(met[0]);
-    if is_across {
-        best = nearer(nearer(best, candidate(met[1])), candidate(met[2]));
-    }
-    let is_flat = best.is_flat(corners, scale);
-    let is_bad = is_flat || best.is_distorted(corners, scale);
-    best.is_folded = is_flat && !is_across;
-    best.is_squashed = is_bad && !is_flat && !is_across;
-    if is_bad {
-        best.outcome = Outcome::Unfolded;
-    }
-    best
+/// The charts that a triangle may be put into: those of its corners, if they differ, and the one in front of it.
+fn candidates(
+    charts: &Charts,
+    placed: &Placed,
+    anchors: [Anchor; 3],
+    front: &Anchor,
+) -> impl Iterator<Item = u32> {
+    let of_corners = anchors.map(|anchor| charts.chart(&anchor));
+    let corners = if placed.is_across { 3 } else { 0 };
+    of_corners.into_iter().take(corners).chain([charts.chart(front)])
 }
 
-/// Where a triangle comes to lie in the chart in front of its middle.
-fn in_front(
+/// A triangle with the closest points of the chart that keeps its area best, of those where it is not distorted; if there is none, laid
+/// flat.
+fn corrected(
     charts: &Charts,
     corners: [Vec3; 3],
     anchors: [Anchor; 3],
     front: &Anchor,
     before: Placed,
 ) -> Placed {
-    let (chart, scale) = (charts.chart(front), charts.atlas.scale);
-    let uv = anchors.map(|anchor| charts.uv(&charts.closest(chart, &anchor)));
-    let moved = Placed { uv, chart, outcome: Outcome::Moved, ..before };
-    if moved.is_flat(corners, scale) || moved.is_distorted(corners, scale) {
-        Placed { uv: laid(charts, corners, front), chart, ..before }
-    } else {
-        moved
+    let scale = charts.atlas.scale;
+    let area = area_vector(corners).length() * scale * scale;
+    let mut best: Option<(f64, Placed)> = None;
+    for chart in candidates(charts, &before, anchors, front) {
+        let uv = anchors.map(|anchor| charts.uv(&charts.closest(chart, &anchor)));
+        let tried = Placed { uv, chart, ..before };
+        let difference = (signed_area(uv) - area).abs();
+        let is_good = !tried.is_flat(corners, scale) && !tried.is_distorted(corners, scale);
+        if is_good && best.is_none_or(|(least, _)| difference < least) {
+            best = Some((difference, tried));
+        }
     }
+    let unfolded = || Placed {
+        uv: laid(charts, corners, front),
+        chart: charts.chart(front),
+        outcome: Outcome::Unfolded,
+        ..before
+    };
+    best.map_or_else(unfolded, |(_, placed)| placed)
 }

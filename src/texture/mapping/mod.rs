@@ -32,13 +32,13 @@ pub struct MappingReport {
     pub triangles: usize,
     /// Triangles whose corners meet different charts.
     pub across_charts: usize,
-    /// Triangles put into one chart by the closest points of it.
+    /// Of those, triangles put into one chart by the closest points of it.
     pub moved: usize,
     /// Triangles that were flipped, or flat, before anything was moved: those within one chart.
     pub folded: usize,
     /// Triangles that were squashed or torn before anything was moved: those within one chart.
     pub squashed: usize,
-    /// Triangles, flipped, squashed or torn after moving, that were laid into a chart as they are in space; they may reach beyond it, but
+    /// Triangles, flipped, squashed or torn after moving, if they could be moved, that were laid into a chart as they are in space; they may reach beyond it, but
     /// not beyond the texture.
     pub unfolded: usize,
     /// Triangles that are flipped at last, or flat.
