@@ -38,8 +38,8 @@ pub struct MappingReport {
     pub folded: usize,
     /// Triangles that were squashed or torn before anything was moved: those within one chart.
     pub squashed: usize,
-    /// Triangles, flipped, squashed or torn after moving, if they could be moved, that were laid into a chart as they are in space; they may reach beyond it, but
-    /// not beyond the texture.
+    /// Triangles that would be flipped, squashed or torn even so, and were laid into a chart as they are in space; they may reach beyond
+    /// it, but not beyond the texture.
     pub unfolded: usize,
     /// Triangles that are flipped at last, or flat.
     pub flipped: usize,
