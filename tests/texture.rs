@@ -1,5 +1,9 @@
 //! Textures of soups: proxies, atlases and what field lines carry over, against shapes whose answers are known.
+#[path = "texture/atlases.rs"]
+mod atlases;
 mod common;
+#[path = "texture/proxies.rs"]
+mod proxies;
 
 use common::parts::{genus_five, gridded_cube, torn, wedge};
 use common::{cube, joined, sphere, topology, torus};
@@ -44,63 +48,6 @@ fn moved(soup: &TriangleSoup, by: Vec3) -> TriangleSoup {
 }
 
 #[test]
-fn a_proxy_is_closed_and_lies_at_its_offset() {
-    let soup = torus(2.0, 0.7, 40, 20);
-    let proxy = proxy_of(soup.clone(), &at_offset(0.25));
-    assert_eq!((proxy.components, topology(&proxy.mesh)), (1, (0, 0)));
-    assert!(proxy.warnings.is_empty());
-    for p in proxy.mesh.positions.iter().step_by(17) {
-        let distance =
-            (0..soup.len()).map(|t| distance_to_triangle(*p, soup.corners(t))).fold(f64::MAX, f64::min);
-        assert!((distance - 0.25).abs() < 1e-3 * 0.25, "{distance}");
-    }
-    // The torus of radius 0.95 around the same circle, but for the chords.
-    let expected = 2.0 * std::f64::consts::PI.powi(2) * 2.0 * 0.95f64.powi(2);
-    assert!((proxy.mesh.volume() / expected - 1.0).abs() < 0.03);
-}
-
-#[test]
-fn the_inner_side_of_a_proxy_is_kept_beside_it() {
-    let both = ProxyConfig { sides: ProxySides::Both, ..at_offset(0.2) };
-    let proxy = proxy_of(cube(1.0), &both);
-    assert_eq!((topology(&proxy.mesh).0, topology(&proxy.inner).0), (2, 2));
-    // It is a cube, inside out.
-    assert!((proxy.inner.volume() + 1.6f64.powi(3)).abs() < 0.05, "{}", proxy.inner.volume());
-    // A ball in the cavity of a shell: neither it nor the cavity's side is outer.
-    let nested = joined(&[cube(2.0), common::flipped(&cube(1.5)), cube(0.4)]);
-    let proxy = proxy_of(nested, &ProxyConfig { offset: Some(0.15), ..both });
-    assert_eq!((proxy.components, topology(&proxy.mesh).0), (1, 2));
-}
-
-#[test]
-fn gaps_wider_than_two_offsets_give_several_proxies_and_the_least_offset_bridges_them() {
-    let parts = joined(&[cube(1.0), moved(&cube(1.0), Vec3::new(2.6, 0.0, 0.0))]);
-    let apart = proxy_of(parts.clone(), &at_offset(0.2));
-    assert_eq!(apart.components, 2);
-    assert!(apart.warnings.iter().any(|w| w.kind == WarningKind::SeveralProxies && w.count == 2));
-    assert!(apart.component.iter().all(|c| *c < 2) && apart.component.contains(&1));
-    let told = std::cell::RefCell::new(Vec::new());
-    let hear = |fraction: f64, _: &str| {
-        told.borrow_mut().push(fraction);
-        true
-    };
-    let least = smallest_single_offset(&field(parts.clone()), ProxySides::Outer, &hear).unwrap();
-    let told = told.into_inner();
-    assert!(told.is_sorted() && told.iter().all(|f| (0.0..=1.0).contains(f)), "{told:?}");
-    assert!(told.iter().any(|f| (0.4..0.6).contains(f)), "{told:?}");
-    // Half of the gap of 0.6, less half of a cell, an eighth of the offset.
-    assert!(least > 0.3 / 1.125 / 1.04 && least < 0.3 * 1.05, "{least}");
-    assert_eq!(proxy_of(parts.clone(), &at_offset(least)).components, 1);
-    // Each part is textured by its own.
-    let made = textured(parts, 0.2);
-    assert_eq!((made.mapping.report.flipped, made.mapping.report.lost_lines), (0, 0));
-    for (t, corners) in made.lines.starts.corners.iter().enumerate() {
-        let component = made.proxy.component[made.anchors.of_starts[corners[0] as usize].face as usize];
-        assert_eq!(component, u32::from(t >= 12));
-    }
-}
-
-#[test]
 fn bad_options_are_typed_errors() {
     let of = |offset: f64| Proxy::new(&field(cube(1.0)), &at_offset(offset), &Silent).unwrap_err();
     assert_eq!(of(0.0), ProxyError::BadOffset(0.0));
@@ -136,101 +83,6 @@ fn bad_options_are_typed_errors() {
     let sparse = ProxyConfig { samples: Some(9), ..at_offset(0.2) };
     let warnings = proxy_of(cube(1.0), &sparse).warnings;
     assert!(warnings.iter().any(|w| w.kind == WarningKind::CoarseProxy && w.count == 20), "{warnings:?}");
-}
-
-/// The Euler number of each chart, by its own texture coordinates.
-fn euler_numbers(atlas: &Atlas) -> Vec<i64> {
-    let mut numbers = vec![0; atlas.chart_count];
-    let mut vertex_chart = vec![u32::MAX; atlas.uv.len()];
-    let mut edges = std::collections::HashSet::new();
-    for (corners, chart) in atlas.corners.iter().zip(&atlas.charts) {
-        numbers[*chart as usize] += 1;
-        for k in 0..3 {
-            let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            assert!(vertex_chart[a as usize] == u32::MAX || vertex_chart[a as usize] == *chart);
-            if vertex_chart[a as usize] == u32::MAX {
-                vertex_chart[a as usize] = *chart;
-                numbers[*chart as usize] += 1;
-            }
-            if edges.insert((a.min(b), a.max(b))) {
-                numbers[*chart as usize] -= 1;
-            }
-        }
-    }
-    numbers
-}
-
-/// Texels that the triangles of an atlas cover, and how many of those are covered twice, at centres of a grid.
-fn covered(atlas: &Atlas, side: usize) -> (usize, usize) {
-    let mut counts = vec![0u8; side * side];
-    for t in 0..atlas.corners.len() as u32 {
-        let [a, b, c] = atlas.corners_of(t).map(|p| p * side as f64);
-        let (low, high) = (a.min(b).min(c).floor(), a.max(b).max(c).ceil());
-        for x in low.x as usize..high.x as usize {
-            for y in low.y as usize..high.y as usize {
-                let p = Vec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                if [(a, b), (b, c), (c, a)].iter().all(|(s, t)| (*t - *s).perp_dot(p - *s) > 0.0) {
-                    counts[x * side + y] += 1;
-                }
-            }
-        }
-    }
-    (counts.iter().filter(|c| **c > 0).count(), counts.iter().filter(|c| **c > 1).count())
-}
-
-#[test]
-fn charts_are_disks_without_flips_or_overlaps() {
-    let shapes: [(TriangleSoup, f64); 4] =
-        [(gridded_cube(2), 0.1), (sphere(8), 0.1), (torus(2.0, 0.6, 30, 16), 0.2), (genus_five(2), 0.2)];
-    for (k, (soup, offset)) in shapes.into_iter().enumerate() {
-        let mesh = proxy_of(soup, &ProxyConfig { smoothing: 2, ..at_offset(offset) }).mesh;
-        let atlas = Atlas::new(&mesh, &AtlasConfig::default(), &Silent).unwrap();
-        assert!(euler_numbers(&atlas).iter().all(|number| *number == 1), "{k}: {:?}", euler_numbers(&atlas));
-        assert_eq!((atlas.distortion.flipped, atlas.distortion.flat), (0, 0), "{k}");
-        let (used, twice) = covered(&atlas, 512);
-        assert_eq!(twice, 0, "{k}");
-        assert!((used as f64 / 512f64.powi(2) - atlas.coverage).abs() < 0.02, "{k}");
-        assert!(atlas.coverage > 0.3, "{k}: {}", atlas.coverage);
-        assert!(
-            atlas.distortion.mean_ratio < 1.15 && atlas.distortion.area_spread < 0.12,
-            "{k}: {:?}",
-            atlas.distortion
-        );
-        // A cube has a chart for each side.
-        assert!(k > 0 || atlas.chart_count == 6, "{}", atlas.chart_count);
-    }
-}
-
-/// Vertices of a mesh next to places.
-fn nearest(mesh: &SurfaceMesh, places: &[Vec3]) -> Vec<u32> {
-    let to = |place: &Vec3| {
-        let distances = mesh.positions.iter().map(|p| p.distance_squared(*place)).zip(0u32..);
-        distances.min_by(|a, b| a.partial_cmp(b).unwrap()).unwrap().1
-    };
-    places.iter().map(to).collect()
-}
-
-#[test]
-fn no_chart_reaches_across_a_drawn_seam() {
-    let mesh = proxy_of(sphere(8), &at_offset(0.15)).mesh;
-    // Once around the equator: two halves, each a disk.
-    let corners = [Vec3::X, Vec3::Y, -Vec3::X, -Vec3::Y, Vec3::X];
-    let seam =
-        seam_through(&mesh, &nearest(&mesh, &corners), &SeamCost { curvature: 0.0, change: 0.0 }).unwrap();
-    let config = AtlasConfig { seams: seam.clone(), only_seams: true, ..AtlasConfig::default() };
-    let halves = Atlas::new(&mesh, &config, &Silent).unwrap();
-    assert_eq!((halves.chart_count, halves.distortion.flipped), (2, 0));
-    let length: f64 =
-        seam.iter().map(|[a, b]| mesh.positions[*a as usize].distance(mesh.positions[*b as usize])).sum();
-    assert!((halves.seam_length - length).abs() < 1e-9 * length);
-    let both = Atlas::new(&mesh, &AtlasConfig { only_seams: false, ..config }, &Silent).unwrap();
-    let sides: std::collections::HashMap<(u32, u32), u32> = mesh
-        .triangles
-        .iter()
-        .zip(&both.charts)
-        .flat_map(|(t, chart)| (0..3).map(|k| ((t[k], t[(k + 1) % 3]), *chart)))
-        .collect();
-    assert!(seam.iter().all(|[a, b]| sides[&(*a, *b)] != sides[&(*b, *a)]));
 }
 
 #[test]

@@ -51,7 +51,7 @@ pub fn seams(
 }
 
 /// The seams of a texture between triangles whose corners lie in the same places, those of loose ones thus among them. Texture
-/// coordinates are at a scale, and differ where they are more than [`SAME`] mean edges apart.
+/// coordinates are at a scale, and differ where they are more than a thousandth of a mean edge apart.
 pub fn seams_between_places(soup: &TriangleSoup, uv: &[[Vec2; 3]], scale: f64, turn: Option<f64>) -> Seams {
     let welded = weld(soup.positions());
     let vertices: Vec<[u32; 3]> = soup.triangles().iter().map(|t| t.map(|v| welded[v as usize])).collect();
