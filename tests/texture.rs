@@ -1,15 +1,20 @@
 //! Textures of soups: proxies, atlases and what field lines carry over, against shapes whose answers are known.
+#[path = "texture/atlases.rs"]
+mod atlases;
 mod common;
+#[path = "texture/proxies.rs"]
+mod proxies;
 
 use common::parts::{genus_five, gridded_cube, torn, wedge};
 use common::{cube, joined, sphere, topology, torus};
 use fast_winding::TriangleSoup;
+use fast_winding::charge::{LineError, Refinement};
 use fast_winding::data::{Silent, SurfaceMesh, WarningKind};
 use fast_winding::math::{Aabb, Vec2, Vec3, distance_to_triangle};
 use fast_winding::texture::{
-    Anchors, Atlas, AtlasConfig, AtlasError, Mapping, Proxy, ProxyConfig, ProxyError, ProxySides, SeamCost,
-    SoupLines, SoupLinesConfig, Texture, TextureConfig, TextureError, seam_through, smallest_single_offset,
-    texture, transferred,
+    Anchors, Atlas, AtlasConfig, AtlasError, Mapping, MappingReport, Proxy, ProxyConfig, ProxyError,
+    ProxySides, SeamCost, Seams, SoupLines, SoupLinesConfig, SoupLinesError, Texture, TextureConfig,
+    TextureError, seam_through, smallest_single_offset, texture, transferred,
 };
 use fast_winding::winding::{FieldConfig, WindingField};
 use std::sync::Arc;
@@ -26,62 +31,20 @@ fn at_offset(offset: f64) -> ProxyConfig {
     ProxyConfig { offset: Some(offset), ..ProxyConfig::default() }
 }
 
+/// A proxy at an offset; fewer charges and steps than by default, as these shapes are simple.
+fn quick(offset: f64) -> TextureConfig {
+    let mut lines = SoupLinesConfig::default();
+    lines.charge.refinement = Some(Refinement { least_parts: 400, ..Refinement::default() });
+    lines.line.steps = 24;
+    TextureConfig { proxy: at_offset(offset), lines, ..TextureConfig::default() }
+}
+
 fn textured(soup: TriangleSoup, offset: f64) -> Texture {
-    let config = TextureConfig { proxy: at_offset(offset), ..TextureConfig::default() };
-    texture(Arc::new(soup), &config, &Silent).unwrap()
+    texture(Arc::new(soup), &quick(offset), &Silent).unwrap()
 }
 
 fn moved(soup: &TriangleSoup, by: Vec3) -> TriangleSoup {
     TriangleSoup::new(soup.positions().iter().map(|p| *p + by).collect(), soup.triangles().to_vec()).unwrap()
-}
-
-#[test]
-fn a_proxy_is_closed_and_lies_at_its_offset() {
-    let soup = torus(2.0, 0.7, 40, 20);
-    let proxy = proxy_of(soup.clone(), &at_offset(0.25));
-    assert_eq!((proxy.components, topology(&proxy.mesh)), (1, (0, 0)));
-    assert!(proxy.warnings.is_empty());
-    for p in proxy.mesh.positions.iter().step_by(17) {
-        let distance =
-            (0..soup.len()).map(|t| distance_to_triangle(*p, soup.corners(t))).fold(f64::MAX, f64::min);
-        assert!((distance - 0.25).abs() < 1e-3 * 0.25, "{distance}");
-    }
-    // The torus of radius 0.95 around the same circle, but for the chords.
-    let expected = 2.0 * std::f64::consts::PI.powi(2) * 2.0 * 0.95f64.powi(2);
-    assert!((proxy.mesh.volume() / expected - 1.0).abs() < 0.03);
-}
-
-#[test]
-fn the_inner_side_of_a_proxy_is_kept_beside_it() {
-    let both = ProxyConfig { sides: ProxySides::Both, ..at_offset(0.2) };
-    let proxy = proxy_of(cube(1.0), &both);
-    assert_eq!((topology(&proxy.mesh).0, topology(&proxy.inner).0), (2, 2));
-    // It is a cube, inside out.
-    assert!((proxy.inner.volume() + 1.6f64.powi(3)).abs() < 0.05, "{}", proxy.inner.volume());
-    // A ball in the cavity of a shell: neither it nor the cavity's side is outer.
-    let nested = joined(&[cube(2.0), common::flipped(&cube(1.5)), cube(0.4)]);
-    let proxy = proxy_of(nested, &ProxyConfig { offset: Some(0.15), ..both });
-    assert_eq!((proxy.components, topology(&proxy.mesh).0), (1, 2));
-}
-
-#[test]
-fn gaps_wider_than_two_offsets_give_several_proxies_and_the_least_offset_bridges_them() {
-    let parts = joined(&[cube(1.0), moved(&cube(1.0), Vec3::new(2.6, 0.0, 0.0))]);
-    let apart = proxy_of(parts.clone(), &at_offset(0.2));
-    assert_eq!(apart.components, 2);
-    assert!(apart.warnings.iter().any(|w| w.kind == WarningKind::SeveralProxies && w.count == 2));
-    assert!(apart.component.iter().all(|c| *c < 2) && apart.component.contains(&1));
-    let least = smallest_single_offset(&field(parts.clone()), ProxySides::Outer, &Silent).unwrap();
-    // Half of the gap of 0.6, less half of a cell, an eighth of the offset.
-    assert!(least > 0.3 / 1.125 / 1.04 && least < 0.3 * 1.05, "{least}");
-    assert_eq!(proxy_of(parts.clone(), &at_offset(least)).components, 1);
-    // Each part is textured by its own.
-    let made = textured(parts, 0.2);
-    assert_eq!((made.mapping.report.flipped, made.mapping.report.lost_lines), (0, 0));
-    for (t, corners) in made.lines.starts.corners.iter().enumerate() {
-        let component = made.proxy.component[made.anchors.of_starts[corners[0] as usize].face as usize];
-        assert_eq!(component, u32::from(t >= 12));
-    }
 }
 
 #[test]
@@ -94,6 +57,20 @@ fn bad_options_are_typed_errors() {
     assert_eq!(Proxy::new(&field(cube(1.0)), &few, &Silent), Err(ProxyError::TooFewSamples(1)));
     let none = texture(Arc::new(TriangleSoup::default()), &TextureConfig::default(), &Silent);
     assert_eq!(none, Err(TextureError::Proxy(ProxyError::NoTriangles)));
+    // Numbers are looked at before anything else: nothing is told of any work.
+    let refused = |config: TextureConfig| {
+        let no_work = |_: f64, stage: &str| -> bool { panic!("{stage}") };
+        texture(Arc::new(cube(1.0)), &config, &no_work).unwrap_err()
+    };
+    let mut config = TextureConfig::default();
+    config.lines.line.steps = usize::MAX;
+    let too_many = TextureError::Lines(SoupLinesError::Line(LineError::TooManySteps(usize::MAX)));
+    assert_eq!(refused(config.clone()), too_many);
+    config.lines.line.steps = 10;
+    config.lines.line.largest_turn = Some(-std::f64::consts::FRAC_PI_2);
+    assert!(refused(config.clone()).to_string().contains("-90 degrees"));
+    config.atlas.texels = 3;
+    assert_eq!(refused(config), TextureError::Atlas(AtlasError::BadTexels(3)));
     let mesh = proxy_of(cube(1.0), &at_offset(0.3)).mesh;
     let cone = AtlasConfig { cone_degrees: 95.0, ..AtlasConfig::default() };
     assert_eq!(Atlas::new(&mesh, &cone, &Silent), Err(AtlasError::BadCone(95.0)));
@@ -101,104 +78,11 @@ fn bad_options_are_typed_errors() {
     assert!(matches!(Atlas::new(&mesh, &small, &Silent), Err(AtlasError::DoesNotFit { charts: 6, .. })));
     let stop = |_: f64, stage: &str| stage != "atlas";
     assert!(matches!(Atlas::new(&mesh, &AtlasConfig::default(), &stop), Err(AtlasError::Cancelled(_))));
+    let wide = AtlasConfig { margin: u32::MAX, ..AtlasConfig::default() };
+    assert!(matches!(Atlas::new(&mesh, &wide, &Silent), Err(AtlasError::DoesNotFit { .. })));
     let sparse = ProxyConfig { samples: Some(9), ..at_offset(0.2) };
     let warnings = proxy_of(cube(1.0), &sparse).warnings;
     assert!(warnings.iter().any(|w| w.kind == WarningKind::CoarseProxy && w.count == 20), "{warnings:?}");
-}
-
-/// The Euler number of each chart, by its own texture coordinates.
-fn euler_numbers(atlas: &Atlas) -> Vec<i64> {
-    let mut numbers = vec![0; atlas.chart_count];
-    let mut vertex_chart = vec![u32::MAX; atlas.uv.len()];
-    let mut edges = std::collections::HashSet::new();
-    for (corners, chart) in atlas.corners.iter().zip(&atlas.charts) {
-        numbers[*chart as usize] += 1;
-        for k in 0..3 {
-            let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            assert!(vertex_chart[a as usize] == u32::MAX || vertex_chart[a as usize] == *chart);
-            if vertex_chart[a as usize] == u32::MAX {
-                vertex_chart[a as usize] = *chart;
-                numbers[*chart as usize] += 1;
-            }
-            if edges.insert((a.min(b), a.max(b))) {
-                numbers[*chart as usize] -= 1;
-            }
-        }
-    }
-    numbers
-}
-
-/// Texels that the triangles of an atlas cover, and how many of those are covered twice, at centres of a grid.
-fn covered(atlas: &Atlas, side: usize) -> (usize, usize) {
-    let mut counts = vec![0u8; side * side];
-    for t in 0..atlas.corners.len() as u32 {
-        let [a, b, c] = atlas.corners_of(t).map(|p| p * side as f64);
-        let (low, high) = (a.min(b).min(c).floor(), a.max(b).max(c).ceil());
-        for x in low.x as usize..high.x as usize {
-            for y in low.y as usize..high.y as usize {
-                let p = Vec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                if [(a, b), (b, c), (c, a)].iter().all(|(s, t)| (*t - *s).perp_dot(p - *s) > 0.0) {
-                    counts[x * side + y] += 1;
-                }
-            }
-        }
-    }
-    (counts.iter().filter(|c| **c > 0).count(), counts.iter().filter(|c| **c > 1).count())
-}
-
-#[test]
-fn charts_are_disks_without_flips_or_overlaps() {
-    let shapes: [(TriangleSoup, f64); 4] =
-        [(gridded_cube(2), 0.1), (sphere(8), 0.1), (torus(2.0, 0.6, 30, 16), 0.2), (genus_five(2), 0.2)];
-    for (k, (soup, offset)) in shapes.into_iter().enumerate() {
-        let mesh = proxy_of(soup, &ProxyConfig { smoothing: 2, ..at_offset(offset) }).mesh;
-        let atlas = Atlas::new(&mesh, &AtlasConfig::default(), &Silent).unwrap();
-        assert!(euler_numbers(&atlas).iter().all(|number| *number == 1), "{k}: {:?}", euler_numbers(&atlas));
-        assert_eq!((atlas.distortion.flipped, atlas.distortion.flat), (0, 0), "{k}");
-        let (used, twice) = covered(&atlas, 512);
-        assert_eq!(twice, 0, "{k}");
-        assert!((used as f64 / 512f64.powi(2) - atlas.coverage).abs() < 0.02, "{k}");
-        assert!(atlas.coverage > 0.3, "{k}: {}", atlas.coverage);
-        assert!(
-            atlas.distortion.mean_ratio < 1.15 && atlas.distortion.area_spread < 0.12,
-            "{k}: {:?}",
-            atlas.distortion
-        );
-        // A cube has a chart for each side.
-        assert!(k > 0 || atlas.chart_count == 6, "{}", atlas.chart_count);
-    }
-}
-
-/// Vertices of a mesh next to places.
-fn nearest(mesh: &SurfaceMesh, places: &[Vec3]) -> Vec<u32> {
-    let to = |place: &Vec3| {
-        let distances = mesh.positions.iter().map(|p| p.distance_squared(*place)).zip(0u32..);
-        distances.min_by(|a, b| a.partial_cmp(b).unwrap()).unwrap().1
-    };
-    places.iter().map(to).collect()
-}
-
-#[test]
-fn no_chart_reaches_across_a_drawn_seam() {
-    let mesh = proxy_of(sphere(8), &at_offset(0.15)).mesh;
-    // Once around the equator: two halves, each a disk.
-    let corners = [Vec3::X, Vec3::Y, -Vec3::X, -Vec3::Y, Vec3::X];
-    let seam =
-        seam_through(&mesh, &nearest(&mesh, &corners), &SeamCost { curvature: 0.0, change: 0.0 }).unwrap();
-    let config = AtlasConfig { seams: seam.clone(), only_seams: true, ..AtlasConfig::default() };
-    let halves = Atlas::new(&mesh, &config, &Silent).unwrap();
-    assert_eq!((halves.chart_count, halves.distortion.flipped), (2, 0));
-    let length: f64 =
-        seam.iter().map(|[a, b]| mesh.positions[*a as usize].distance(mesh.positions[*b as usize])).sum();
-    assert!((halves.seam_length - length).abs() < 1e-9 * length);
-    let both = Atlas::new(&mesh, &AtlasConfig { only_seams: false, ..config }, &Silent).unwrap();
-    let sides: std::collections::HashMap<(u32, u32), u32> = mesh
-        .triangles
-        .iter()
-        .zip(&both.charts)
-        .flat_map(|(t, chart)| (0..3).map(|k| ((t[k], t[(k + 1) % 3]), *chart)))
-        .collect();
-    assert!(seam.iter().all(|[a, b]| sides[&(*a, *b)] != sides[&(*b, *a)]));
 }
 
 #[test]
@@ -207,8 +91,10 @@ fn a_torn_cube_is_textured_as_the_whole_one() {
     let noisy = torn(&clean, 4e-3, 3);
     let whole = textured(clean.clone(), 0.12);
     // The same proxy and atlas for both: what differs is the correspondence.
-    let lines = SoupLines::new(&Arc::new(noisy.clone()), &SoupLinesConfig::default(), &Silent).unwrap();
-    let anchors = Anchors::new(&lines, &whole.proxy);
+    let mut config = SoupLinesConfig::default();
+    config.charge.refinement = None;
+    let lines = SoupLines::new(&Arc::new(noisy.clone()), &config, &Silent).unwrap();
+    let anchors = Anchors::new(&lines, &whole.proxy, &Silent).unwrap();
     let mapping = Mapping::new(&noisy, &lines, &anchors, &whole.proxy, &whole.atlas, &Silent).unwrap();
     assert_eq!((whole.mapping.report.flipped, mapping.report.flipped), (0, 0));
     assert_eq!((mapping.report.lost_lines, whole.mapping.report.lost_lines), (0, 0));
@@ -220,13 +106,47 @@ fn a_torn_cube_is_textured_as_the_whole_one() {
     // The noise is 4e-3 of the diagonal in the mean: the points that correspond are a few times as far apart, as lines spread.
     let noise = 4e-3 * clean.bounds().diagonal();
     assert!(mean < 4.0 * noise, "{mean} {noise}");
+    // So it is in the texture, but for triangles next to seams that lie in another chart.
+    let same: Vec<usize> =
+        (0..noisy.len()).filter(|t| mapping.charts[*t] == whole.mapping.charts[*t]).collect();
+    assert!(same.len() as f64 > 0.95 * noisy.len() as f64, "{} of {}", same.len(), noisy.len());
+    let apart = same.iter().map(|t| {
+        (0..3).map(|k| mapping.uv[*t][k].distance(whole.mapping.uv[*t][k])).fold(0.0, f64::max)
+            / whole.atlas.scale
+    });
+    let apart: Vec<f64> = apart.collect();
+    let mean = apart.iter().sum::<f64>() / apart.len() as f64;
+    assert!(mean < 6.0 * noise, "{mean} {noise}");
+    assert!(apart.iter().all(|a| *a < 40.0 * noise), "{:?}", apart.iter().fold(0.0, |m: f64, a| m.max(*a)));
+}
+
+#[test]
+fn a_cube_has_a_piece_for_each_side_and_its_edges_for_seams() {
+    let made = textured(gridded_cube(6), 0.1);
+    let report = made.report();
+    // Triangles along the edges have lines that meet two charts, and come to lie in that of their side.
+    assert_eq!((report.charts, report.mapping.unfolded), (6, 0), "{:?}", report.mapping);
+    let Seams { pieces, length } = report.seams;
+    assert!(pieces == 6 && (length - 24.0).abs() < 1e-9, "{pieces} {length}");
+    let affected = &made.mapping.affected;
+    assert_eq!(affected.moved, affected.across);
+    let on_edge = |t: &u32| {
+        made.soup
+            .corners(*t as usize)
+            .iter()
+            .any(|p| p.to_array().iter().filter(|x| x.abs() > 0.999).count() > 1)
+    };
+    assert!(!affected.across.is_empty() && affected.across.iter().all(on_edge));
 }
 
 #[test]
 fn another_proxy_keeps_the_lines() {
     let made = textured(sphere(6), 0.08);
     let other = made.with_proxy(&at_offset(0.15), &AtlasConfig::default(), &Silent).unwrap();
-    assert_eq!(made.lines, other.lines);
+    assert!(Arc::ptr_eq(&made.lines, &other.lines));
+    let same_proxy =
+        made.with_atlas(&AtlasConfig { texels: 256, ..AtlasConfig::default() }, &Silent).unwrap();
+    assert!(Arc::ptr_eq(&made.anchors, &same_proxy.anchors) && made.atlas.scale != same_proxy.atlas.scale);
     // Lines of a sphere are radial, so that both anchors of a start lie on one ray, at their offsets.
     for (near, far) in made.anchors.of_starts.iter().zip(&other.anchors.of_starts) {
         assert!(near.point.normalize().distance(far.point.normalize()) < 0.02);
@@ -234,6 +154,11 @@ fn another_proxy_keeps_the_lines() {
     }
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert_eq!(made, one_thread.install(|| textured(sphere(6), 0.08)));
+    let stop_at = |last: &'static str| move |_: f64, stage: &str| stage != last;
+    for stage in ["proxy components", "packing", "meeting the proxy", "texture"] {
+        let stopped = made.with_proxy(&at_offset(0.15), &AtlasConfig::default(), &stop_at(stage));
+        assert!(stopped.is_err(), "{stage} is told");
+    }
 }
 
 #[test]
@@ -280,10 +205,20 @@ fn a_sheet_is_textured_on_the_side_of_its_normals() {
 
 #[test]
 fn narrow_places_are_reported_and_wide_ones_are_not() {
-    let narrow = textured(wedge(15.0, 8), 0.1);
-    let wide = textured(wedge(120.0, 8), 0.1);
-    assert!(narrow.mapping.report.weak_field > 8, "{:?}", narrow.mapping.report);
-    assert!(wide.mapping.report.weak_field < narrow.mapping.report.weak_field / 2);
+    // How weak the field is next to a plate takes charges as fine as by default.
+    let of = |degrees: f64| {
+        let config = TextureConfig { proxy: at_offset(0.1), ..TextureConfig::default() };
+        texture(Arc::new(wedge(degrees, 8)), &config, &Silent).unwrap()
+    };
+    let (narrow, wide) = (of(15.0), of(120.0));
+    // Only what did not come to lie where its lines lead is told of: in the wide one all did.
+    assert_eq!(wide.mapping.report.weak_field, 0);
+    let affected = &narrow.mapping.affected;
+    assert!(affected.weak.len() > 8, "{:?}", narrow.mapping.report);
+    assert!(affected.weak.iter().all(|t| affected.unfolded.contains(t) || affected.lost.contains(t)));
+    // They lie next to the edge in which the plates meet, inside.
+    let reach = |t: &u32| narrow.soup.corners(*t as usize).iter().map(|p| p.x.hypot(p.z)).fold(0.0, f64::max);
+    assert!(affected.weak.iter().all(|t| reach(t) < 1.0));
     assert!(narrow.report().warnings.iter().any(|w| w.kind == WarningKind::WeakField));
 }
 
@@ -293,7 +228,7 @@ fn triangles_that_cross_are_split_on_request() {
     let square = |x: Vec3, y: Vec3| [-x - y, x - y, x + y, -x + y];
     let places = [square(Vec3::X, Vec3::Y), square(Vec3::X, Vec3::Z)].concat();
     let soup = TriangleSoup::new(places, vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]).unwrap();
-    let config = TextureConfig { proxy: at_offset(0.15), refine: true, ..TextureConfig::default() };
+    let config = TextureConfig { refine: true, ..quick(0.15) };
     let made = texture(Arc::new(soup.clone()), &config, &Silent).unwrap();
     assert!(made.soup.len() > soup.len() && made.sources.len() == made.soup.len());
     // No part lies on both sides of the other square.
@@ -315,6 +250,12 @@ fn parts_that_overlap_get_one_texture() {
     let made = textured(joined(&[gridded_cube(4), bar]), 0.1);
     let report = made.report();
     assert_eq!((report.proxy_components, report.mapping.flipped), (1, 0));
+    // The bar's ends stick out; half of it is in the cube, where its lines lead nowhere: it is laid flat, in the texture.
+    let MappingReport { unfolded, lost_lines, weak_field, distortion, .. } = &report.mapping;
+    assert!(*unfolded > 0 && *lost_lines + unfolded > 8 && *weak_field == 0, "{:?}", report.mapping);
+    assert!(distortion.largest_ratio <= 8.0, "{distortion:?}");
+    let is_within = |p: &Vec2| p.cmpge(Vec2::ZERO).all() && p.cmple(Vec2::ONE).all();
+    assert!(made.mapping.uv.iter().flatten().all(is_within));
     assert_eq!(topology(&made.proxy.mesh), (2, 0));
     let json = serde_json::to_value(&report).unwrap();
     assert!(json["mapping"]["acrossCharts"].is_u64() && json["proxyDistortion"]["meanRatio"].is_f64());

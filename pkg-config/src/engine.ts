@@ -21,7 +21,7 @@ const FUNCTIONS = {
 } as const;
 
 /** Methods that take the part of the WebAssembly that comes later, whatever the shape. */
-const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', 'boolean', 'texture', 'suggestOffset', ...Object.keys(FUNCTIONS)];
+const BY_MORE = ['noise', 'surface', 'slice', 'layerSpans', 'voxelBricks', 'save', 'signedDistance', 'distanceLattice', 'closestPoints', 'offset', 'hollow', 'check', 'orientFaces', 'repair', 'boolean', 'texture', 'suggestOffset', 'project', ...Object.keys(FUNCTIONS)];
 
 /** Ways of making voxels that take it. */
 const VOXELS_BY_MORE = ['continuation', 'rays', 'fast', 'cloud'];

@@ -110,6 +110,10 @@ class BaseShape extends Held {
     return this.ask('suggestOffset', [forEngine(options)], options);
   }
 
+  project(options?: object): unknown {
+    return this.ask('project', [forEngine(options)]);
+  }
+
   heatMap(options: object): unknown {
     return this.ask('heatMap', [forEngine(options)], options);
   }

@@ -4,7 +4,7 @@ export type {
   Prepared, ReadOptions, RemeshOptions, Repaired, RepairOptions, RepairReport,
   ClosestPoints, DistanceLattice, DistanceLatticeOptions, DistanceOptions, Drain, HollowOptions, OffsetOptions,
   BoundaryLoop, CheckOptions, CheckReport, FaceOrientOptions, FieldRegion, IndexPairs, Indices, OrientedFaces, ReasonKind, Shell,
-  AtlasOptions, Distortion, FieldLines, MappingReport, ProxyGeometry, ProxyOptions, TexturedGeometry, TextureOptions, TextureReport,
+  AffectedTriangles, AtlasOptions, Distortion, FieldLines, MappingReport, Projected, Projection, ProxyGeometry, ProxyOptions, TexturedGeometry, TextureOptions, TextureReport, TextureSeams,
   GCode, LayerPaths, PathKind, PrinterProfile, Regions, RequiredProfile, ToolpathSettings, Toolpaths, SliceOptions, SoupArrays, SoupFormat, SurfaceOptions, VoxelOptions, Voxels, Warning,
 } from './api.js';
 export { WindingError, type ErrorCode } from './error.js';

@@ -73,18 +73,31 @@ export interface MappingReport {
   moved: number;
   /** Those that were flipped, or flat, before anything was moved, within one chart. */
   folded: number;
-  /** Those that were laid into a chart as they are in space, as they were flipped or flat otherwise; they may reach beyond it. */
+  /** Those that were more than 8 times as long as wide, or as large or small as they should be, before, within one chart. */
+  squashed: number;
+  /**
+   * Those that were laid into a chart as they are in space, as they were flipped, flat or squashed otherwise; they may reach beyond it, but
+   * not beyond the texture.
+   */
   unfolded: number;
   /** Those that are flipped at last, or flat. */
   flipped: number;
-  /** Those that are more than 8 times as large as they should be, or as small. */
+  /** Those that are more than 8 times as large as they should be at last, or as small. */
   torn: number;
   /** Starts of lines that meet no proxy, which take its nearest point; and lines from a boundary that were replaced by straight ones. */
   lostLines: number;
   tangentialLines: number;
-  /** Triangles in narrow places, where the field is weak: a smaller offset helps there. */
+  /** Triangles in narrow places, where the field is weak, whose lines do not lead out of them well: a smaller offset helps there. */
   weakField: number;
   distortion: Distortion;
+}
+
+/** Where a texture is cut. */
+export interface TextureSeams {
+  /** Parts within which it is continuous: each loose triangle is one. */
+  pieces: number;
+  /** Of edges on whose two sides it differs. */
+  length: number;
 }
 
 export interface TextureReport {
@@ -99,6 +112,8 @@ export interface TextureReport {
   /** Share of the texture that charts cover. */
   coverage: number;
   proxyDistortion: Distortion;
+  /** Where the texture of the soup is cut. */
+  seams: TextureSeams;
   /** One for each vertex of the soup and side that its triangles show there. */
   lines: number;
   mapping: MappingReport;
@@ -118,6 +133,41 @@ export interface TexturedGeometry {
   charts: Uint32Array;
   /** If it was refined: of each triangle, the one of the soup that it is a part of. Empty otherwise. */
   sources: Uint32Array;
+}
+
+/** Triangles that did not simply go where their lines meet the proxy: lists of their numbers, ascending, in the soup that has the texture. */
+export interface AffectedTriangles {
+  /** Their corners meet different charts; of these those put into one of them by its closest points. */
+  across: Uint32Array;
+  moved: Uint32Array;
+  /** Flipped or flat where their lines meet one chart, or squashed there: 8 times as long as wide, or as large or small as they should be. */
+  folded: Uint32Array;
+  squashed: Uint32Array;
+  /** Laid into a chart as they are in space, as they were folded, squashed or torn. */
+  unfolded: Uint32Array;
+  /** Flipped or flat at last, and 8 times as large or small as they should be at last. */
+  flipped: Uint32Array;
+  torn: Uint32Array;
+  /** With a corner whose line meets no proxy, and with one whose line was replaced as it ran along the surface. */
+  lost: Uint32Array;
+  tangential: Uint32Array;
+  /** In narrow places that their lines do not lead out of well. */
+  weak: Uint32Array;
+}
+
+/** How a soup is projected: along the shortest side of its bounds, each triangle along the axis that it faces, or onto a shape around the longest side. */
+export type Projection = 'planar' | 'triplanar' | 'cylindrical' | 'spherical';
+
+/** Texture coordinates by a projection. */
+export interface Projected {
+  /** u and v of the corners of each triangle: six numbers, from 0 to 1. Triangles may lie over each other. */
+  uvs: Float32Array;
+  /** Texture coordinates for a millimetre. */
+  scale: number;
+  /** How long a full turn is in u, if it goes round. */
+  turn: number | undefined;
+  distortion: Distortion;
+  seams: TextureSeams;
 }
 
 export interface ProxyGeometry {
@@ -146,6 +196,8 @@ export interface Texture {
   readonly report: TextureReport;
   geometry(): Promise<TexturedGeometry>;
   proxy(): Promise<ProxyGeometry>;
+  /** Which triangles are moved, laid flat, torn, or in narrow places, for a list of them or to colour them. */
+  affected(): Promise<AffectedTriangles>;
   /**
    * Field lines from the soup to where they meet the proxy first, `count` of them at most, spread evenly over the soup, or all. Those that
    * meet none are whole.
@@ -185,4 +237,6 @@ export interface TexturedSoup {
   texture(options?: TextureOptions): Promise<Texture>;
   /** The smallest offset, to 4 %, at which the proxy is in one piece; 1/80 of the longest side if that is enough. */
   suggestOffset(options?: Pick<ProxyOptions, 'sides'> & CallOptions): Promise<number>;
+  /** Texture coordinates by a standard projection, `triplanar` unless said otherwise: quick, and to compare `texture` with. */
+  project(options?: { method?: Projection }): Promise<Projected>;
 }

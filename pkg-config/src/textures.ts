@@ -20,6 +20,10 @@ export class TextureOfSoup extends Held {
     return this.ask('proxy', []);
   }
 
+  affected(): unknown {
+    return this.ask('affected', []);
+  }
+
   lines(options?: object): unknown {
     return this.ask('lines', [forEngine(options)]);
   }

@@ -58,9 +58,11 @@ pub enum ChargeError {
 }
 
 impl ChargeConfig {
+    /// Whether a soup can be charged so.
+    ///
     /// # Errors
     /// If and only if a number is out of its range.
-    pub(super) fn check(&self) -> Result<(), ChargeError> {
+    pub fn check(&self) -> Result<(), ChargeError> {
         let within = |name, value: f64, is_good: bool, accepted| {
             if is_good { Ok(()) } else { Err(ChargeError::BadNumber { name, value, accepted }) }
         };

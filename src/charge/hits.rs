@@ -1,13 +1,16 @@
 //! Where field lines meet a surface first.
 use super::FieldLines;
 use crate::bvh::{Bvh, FirstHit};
-use crate::data::{TriangleSoup, map_items, map_tasks};
+use crate::data::{Cancelled, Monitor, Silent, TriangleSoup, map_items, map_tasks};
 use crate::math::{Aabb, Ray, Vec3, area_vector};
 
 /// Most triangles in a leaf of the tree.
 const LEAF_SIZE: usize = 4;
 /// Lines that make a task.
 const LINES_PER_TASK: usize = 64;
+/// Tasks between two reports to the monitor.
+const TASKS_PER_REPORT: usize = 16;
+const STAGE: &str = "meeting the proxy";
 /// How much farther than its end a segment reaches, in its lengths: rounding must not lose what lies between two of them.
 const OVERLAP: f64 = 1e-9;
 
@@ -27,16 +30,36 @@ pub struct Hit {
 ///
 /// Lines are cheap to follow again: for another surface around the same soup only this is to be called.
 pub fn first_hits(lines: &FieldLines, mesh: &TriangleSoup) -> Vec<Option<Hit>> {
+    first_hits_with(lines, mesh, &Silent).expect("nobody cancels")
+}
+
+/// [`first_hits`], with reports to a monitor.
+///
+/// # Errors
+/// If and only if `monitor` cancels.
+pub fn first_hits_with(
+    lines: &FieldLines,
+    mesh: &TriangleSoup,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Option<Hit>>, Cancelled> {
+    monitor.report(0.0, STAGE)?;
     let boxes = map_items(mesh.len(), |t| Aabb::around(mesh.corners(t)));
     let bvh = Bvh::build(&boxes, LEAF_SIZE);
-    let tasks = map_tasks(lines.len().div_ceil(LINES_PER_TASK), |task| {
-        let mut search = FirstHit::default();
-        let first = task * LINES_PER_TASK;
-        (first..lines.len().min(first + LINES_PER_TASK))
-            .map(|line| along(lines.line(line), mesh, &bvh, &mut search))
-            .collect::<Vec<_>>()
-    });
-    tasks.into_iter().flatten().collect()
+    let tasks = lines.len().div_ceil(LINES_PER_TASK);
+    let mut hits = Vec::with_capacity(lines.len());
+    for begun in (0..tasks).step_by(TASKS_PER_REPORT) {
+        monitor.report(begun as f64 / tasks as f64, STAGE)?;
+        let found = map_tasks(TASKS_PER_REPORT.min(tasks - begun), |task| {
+            let mut search = FirstHit::default();
+            let first = (begun + task) * LINES_PER_TASK;
+            (first..lines.len().min(first + LINES_PER_TASK))
+                .map(|line| along(lines.line(line), mesh, &bvh, &mut search))
+                .collect::<Vec<_>>()
+        });
+        hits.extend(found.into_iter().flatten());
+    }
+    monitor.report(1.0, STAGE)?;
+    Ok(hits)
 }
 
 fn along(points: &[Vec3], mesh: &TriangleSoup, bvh: &Bvh, search: &mut FirstHit) -> Option<Hit> {

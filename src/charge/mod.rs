@@ -28,7 +28,7 @@ mod walk;
 pub use config::{ChargeConfig, ChargeError, ChargeReport, Solver};
 pub use elements::Refinement;
 pub use field::ElectricField;
-pub use hits::{Hit, first_hits};
+pub use hits::{Hit, first_hits, first_hits_with};
 pub use influence::Integration;
 pub use lines::{FieldLines, Integrator, LineConfig, LineError};
 pub use rule::Rule;

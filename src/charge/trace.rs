@@ -7,14 +7,14 @@ use crate::data::{Monitor, map_items, map_tasks};
 use crate::math::{Aabb, Vec3};
 
 /// Blocks of lines between two reports to the monitor.
-const BLOCKS_PER_REPORT: usize = 8;
+const BLOCKS_PER_REPORT: usize = 16;
 /// Steps get no shorter than this share of the whole one.
 const SHORTEST: f64 = 1.0 / 16.0;
 /// All steps lead this share of the diagonal away, if not told otherwise.
 const REACH: f64 = 0.1;
 const OFFSET: f64 = 0.1;
 /// Lines that are followed together.
-const TOGETHER: usize = 512;
+const TOGETHER: usize = 256;
 /// Fewer lines are followed without cubes.
 const LEAST_IN_CUBES: usize = 32;
 /// A cube's edge takes at least so many steps.
@@ -29,7 +29,7 @@ pub type Stop<'a> = &'a (dyn Fn(usize, Vec3, Vec3) -> bool + Sync);
 /// noisy soup, it first follows its direction.
 ///
 /// # Errors
-/// If and only if there is not one direction for each start, one is not finite, a length of the configuration is not positive,
+/// If and only if there is not one direction for each start, one is not finite, [`LineConfig::check`] refuses the configuration,
 /// the lines have too many points, or `monitor` cancels.
 pub fn trace(
     field: &ElectricField,
@@ -59,15 +59,12 @@ pub fn trace_until(
     if let Some(k) = (0..starts.len()).find(|k| !(starts[*k].is_finite() && directions[*k].is_finite())) {
         return Err(LineError::NonFinite(k));
     }
+    config.check()?;
     let diagonal = field.soup().bounds().diagonal();
     let step = config.step.unwrap_or(REACH * diagonal / config.steps.max(1) as f64);
     let offset = config.start_offset.unwrap_or(OFFSET * step);
-    for (name, value) in
-        [("step", step), ("start_offset", offset), ("largest_turn", config.largest_turn.unwrap_or(1.0))]
-    {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(LineError::BadLength { name, value });
-        }
+    if !(step > 0.0 && step.is_finite()) {
+        return Err(LineError::BadLength { name: "step", value: step });
     }
     let bounds = Aabb::around(starts.iter().copied());
     let order = sorted_codes(map_items(starts.len(), |k| morton_code(starts[k], &bounds))).1;

@@ -76,9 +76,9 @@ pub enum WarningKind {
     LostLines,
     /// Lines from a boundary that ran along the triangles: they got the direction of their neighbours.
     TangentialLines,
-    /// Triangles in narrow places where the field is weak: a smaller offset would follow them closer.
+    /// Triangles in narrow places where the field is weak, and whose lines do not lead out well: a smaller offset would follow them closer.
     WeakField,
-    /// Triangles whose texture is torn, folded or stretched.
+    /// Triangles that were laid flat by themselves, or whose texture is torn or flipped.
     BadTexture,
 }
 
@@ -91,25 +91,42 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let n = self.count;
+        let of = |one: &'static str, more: &'static str| if n == 1 { one } else { more };
+        let faces = of("face", "faces");
+        let were = of("was", "were");
+        let points = of("point", "points");
+        let triangles = of("triangle", "triangles");
+        let parts = of("part", "parts");
+        let layers = of("layer", "layers");
+        let lines = of("line", "lines");
         match self.kind {
-            WarningKind::NonFiniteFaces => write!(f, "{n} faces with a NaN or infinite vertex were dropped"),
+            WarningKind::NonFiniteFaces => {
+                write!(f, "{n} {faces} with a NaN or infinite vertex {were} dropped")
+            }
             WarningKind::IndexOutOfRange => {
-                write!(f, "{n} faces that name a vertex which does not exist were dropped")
+                let name = of("names", "name");
+                write!(f, "{n} {faces} that {name} a vertex which does not exist {were} dropped")
             }
             WarningKind::NonFinitePoints => {
-                write!(f, "{n} points with a NaN or infinite coordinate were dropped")
+                write!(f, "{n} {points} with a NaN or infinite coordinate {were} dropped")
             }
-            WarningKind::BadNormals => write!(f, "{n} points had no usable normal"),
+            WarningKind::BadNormals => write!(f, "{n} {points} had no usable normal"),
             WarningKind::CountMismatch => {
-                write!(f, "the header's count is off by {n} records; what the file holds was read")
+                let records = of("record", "records");
+                write!(f, "the header's count is off by {n} {records}; what the file holds was read")
             }
-            WarningKind::TruncatedRecord => write!(f, "{n} records at the end were cut short and dropped"),
-            WarningKind::TrailingBytes => write!(f, "{n} bytes after the last record were ignored"),
+            WarningKind::TruncatedRecord => {
+                write!(f, "{n} {} at the end {were} cut short and dropped", of("record", "records"))
+            }
+            WarningKind::TrailingBytes => {
+                write!(f, "{n} {} after the last record {were} ignored", of("byte", "bytes"))
+            }
             WarningKind::IgnoredColumns => {
-                write!(f, "columns of {n} points that are neither coordinates nor normals were left out")
+                write!(f, "columns of {n} {points} that are neither coordinates nor normals were left out")
             }
             WarningKind::SkippedElements => {
-                write!(f, "{n} elements that are neither faces nor points were skipped")
+                let elements = of("element that is", "elements that are");
+                write!(f, "{n} {elements} neither faces nor points {were} skipped")
             }
             WarningKind::TinyModel => {
                 write!(f, "the model is smaller than 1 mm across: check its unit (read as millimetres)")
@@ -118,27 +135,44 @@ impl fmt::Display for Warning {
                 write!(f, "the model is larger than 2,000 mm across: check its unit (read as millimetres)")
             }
             WarningKind::EstimatedNormals => {
-                write!(f, "normals of {n} points were estimated; thin or sparse parts may come out inverted")
+                write!(
+                    f,
+                    "normals of {n} {points} were estimated; thin or sparse parts may come out inverted"
+                )
             }
-            WarningKind::FlatCloud => write!(f, "the {n} points lie in one plane: they bound no volume"),
-            WarningKind::DegenerateFaces => write!(f, "{n} triangles without area give no points"),
-            WarningKind::UnusedVertices => write!(f, "{n} vertices of no triangle give no points"),
+            WarningKind::FlatCloud => write!(f, "the {n} {points} lie in one plane: they bound no volume"),
+            WarningKind::DegenerateFaces => {
+                write!(f, "{n} {triangles} without area {} no points", of("gives", "give"))
+            }
+            WarningKind::UnusedVertices => {
+                let vertices = of("vertex of no triangle gives", "vertices of no triangle give");
+                write!(f, "{n} {vertices} no points")
+            }
             WarningKind::ThinWalls => {
-                write!(f, "{n} parts of layers are too thin for a line along either side")
+                let are = of("is", "are");
+                write!(f, "{n} {parts} of layers {are} too thin for a line along either side")
             }
             WarningKind::DroppedFeatures => {
-                write!(f, "{n} parts of layers narrower than the least feature were left out")
+                write!(f, "{n} {parts} of layers narrower than the least feature {were} left out")
             }
-            WarningKind::Overhangs => write!(f, "{n} parts of layers hang over nothing: they want support"),
+            WarningKind::Overhangs => {
+                let hang = of("hangs over nothing: it wants", "hang over nothing: they want");
+                write!(f, "{n} {parts} of layers {hang} support")
+            }
             WarningKind::MovedToBed => write!(f, "the print lay off the bed and was moved to its middle"),
-            WarningKind::HighLayers => write!(f, "{n} layers are higher than the nozzle is wide"),
-            WarningKind::NarrowLines => write!(f, "{n} lines are narrower than 0.6 of the nozzle"),
+            WarningKind::HighLayers => {
+                write!(f, "{n} {layers} {} higher than the nozzle is wide", of("is", "are"))
+            }
+            WarningKind::NarrowLines => {
+                write!(f, "{n} {lines} {} narrower than 0.6 of the nozzle", of("is", "are"))
+            }
             WarningKind::EmptyResult => write!(f, "nothing is left of the operands"),
             WarningKind::DifferentScales => {
                 write!(f, "one operand is {n} times as large as the other: check their units")
             }
             WarningKind::OpenOperands => {
-                write!(f, "{n} boundary edges: operands are open, and cut along level sets there")
+                let edges = of("edge", "edges");
+                write!(f, "{n} boundary {edges}: operands are open, and cut along level sets there")
             }
             WarningKind::SelfCrossing => {
                 write!(f, "an operand crosses itself at the cut: only what bounds the result is left")
@@ -146,7 +180,7 @@ impl fmt::Display for Warning {
             WarningKind::SnappedOperands => {
                 write!(f, "surfaces nearly coincide: they were cut as if vertices lay on a fine grid")
             }
-            WarningKind::CrossingFaces => write!(f, "pieces of {n} faces cross after rounding"),
+            WarningKind::CrossingFaces => write!(f, "pieces of {n} {faces} cross after rounding"),
             WarningKind::CoarseProxy => {
                 write!(
                     f,
@@ -157,15 +191,46 @@ impl fmt::Display for Warning {
                 write!(f, "the proxy has {n} components: gaps are wider than two offsets")
             }
             WarningKind::LostLines => {
-                write!(f, "{n} field lines meet no proxy: their vertices got the nearest point of it")
+                let meet = of("meets no proxy: its vertex", "meet no proxy: their vertices");
+                write!(f, "{n} field {lines} {meet} got the nearest point of it")
             }
             WarningKind::TangentialLines => {
-                write!(f, "{n} field lines from a boundary got the direction of their neighbours")
+                let own = of("its", "their");
+                write!(f, "{n} field {lines} from a boundary got the direction of {own} neighbours")
             }
             WarningKind::WeakField => {
-                write!(f, "{n} triangles lie in narrow places: a smaller offset would follow them closer")
+                let (lie, them) = (of("lies", "lie"), of("it", "them"));
+                write!(
+                    f,
+                    "{n} {triangles} {lie} in narrow places: a smaller offset would follow {them} closer"
+                )
             }
-            WarningKind::BadTexture => write!(f, "the texture of {n} triangles is torn, folded or stretched"),
+            WarningKind::BadTexture => {
+                let (are, by) = (of("is", "are"), of("itself", "themselves"));
+                write!(f, "{n} {triangles} {are} laid flat by {by} or torn: the texture breaks off there")
+            }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_is_told_in_the_singular() {
+        let told = |kind: WarningKind, count: usize| Warning::new(kind, count).to_string();
+        assert_eq!(
+            [told(WarningKind::LostLines, 1), told(WarningKind::LostLines, 2)],
+            [
+                "1 field line meets no proxy: its vertex got the nearest point of it",
+                "2 field lines meet no proxy: their vertices got the nearest point of it"
+            ]
+        );
+        assert_eq!(told(WarningKind::Overhangs, 1), "1 part of layers hangs over nothing: it wants support");
+        assert_eq!(
+            told(WarningKind::IndexOutOfRange, 3),
+            "3 faces that name a vertex which does not exist were dropped"
+        );
     }
 }

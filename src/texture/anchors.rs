@@ -1,13 +1,13 @@
 //! Where the lines of a soup meet a proxy: the point of it that each corner corresponds to (Schier et al. 2018, section 7.6).
 use super::{Proxy, SoupLines};
-use crate::charge::{FieldLines, Hit, first_hits};
-use crate::data::{Shape, map_items};
+use crate::charge::{FieldLines, Hit, first_hits_with};
+use crate::data::{Cancelled, Monitor, Parts, Shape, fill_in_blocks};
 use crate::distance::DistanceTree;
 use crate::math::Vec3;
 use std::sync::Arc;
 
 /// A point of a proxy.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Anchor {
     pub face: u32,
     pub barycentric: [f64; 3],
@@ -21,8 +21,9 @@ pub struct Anchors {
     /// Starts whose lines meet no proxy, as they are inside of the shape: they have the point nearest to them.
     pub is_lost: Vec<bool>,
     pub lost: usize,
-    /// Lines from a boundary that ran along the surface, replaced by straight ones in the direction of their neighbours.
-    pub tangential: usize,
+    /// Starts of lines from a boundary that ran along the surface, replaced by straight ones in the direction of their neighbours;
+    /// ascending.
+    pub tangential: Vec<u32>,
 }
 
 /// A line runs along the surface if the cosine of its angle to the normal is below this.
@@ -32,10 +33,15 @@ const REACH: f64 = 2.0;
 
 impl Anchors {
     /// Intersects the lines with a proxy.
-    pub fn new(lines: &SoupLines, proxy: &Proxy) -> Anchors {
+    ///
+    /// # Errors
+    /// If and only if the monitor cancels.
+    pub fn new(lines: &SoupLines, proxy: &Proxy, monitor: &dyn Monitor) -> Result<Anchors, Cancelled> {
+        let monitor = &Parts::new(monitor);
         let mesh = proxy.soup();
         let starts = &lines.starts;
-        let mut hits = first_hits(&lines.lines, &mesh);
+        monitor.begin(0.0, 0.6);
+        let mut hits = first_hits_with(&lines.lines, &mesh, monitor)?;
         let replaced = replacements(lines, &hits);
         let reach = REACH * mesh.bounds().diagonal();
         let mut straight = FieldLines::default();
@@ -43,13 +49,14 @@ impl Anchors {
             let from = starts.points[*start as usize];
             straight.push(&[from, from + reach * *direction]);
         }
-        for ((start, _), hit) in replaced.iter().zip(first_hits(&straight, &mesh)) {
+        monitor.begin(0.6, 0.8);
+        for ((start, _), hit) in replaced.iter().zip(first_hits_with(&straight, &mesh, monitor)?) {
             hits[*start as usize] = hit.or(hits[*start as usize]);
         }
         let is_lost: Vec<bool> = hits.iter().map(|hit| hit.is_none()).collect();
         let lost = is_lost.iter().filter(|lost| **lost).count();
         let tree = (lost > 0).then(|| DistanceTree::new(&Shape::Soup(Arc::new(mesh))));
-        let anchor = |start: usize| match (hits[start], &tree) {
+        let anchor = |start: usize, _: &mut ()| match (hits[start], &tree) {
             (Some(Hit { face, barycentric, point, .. }), _) => Anchor { face, barycentric, point },
             (None, tree) => {
                 let nearest = tree.as_ref().and_then(|tree| tree.closest(starts.points[start]));
@@ -57,8 +64,11 @@ impl Anchors {
                 Anchor { face: nearest.element, barycentric: nearest.barycentric, point: nearest.point }
             }
         };
-        let of_starts = map_items(hits.len(), anchor);
-        Anchors { of_starts, is_lost, lost, tangential: replaced.len() }
+        let mut of_starts = vec![Anchor::default(); hits.len()];
+        monitor.begin(0.8, 1.0);
+        fill_in_blocks(&mut of_starts, anchor, "meeting the proxy", monitor)?;
+        let tangential = replaced.into_iter().map(|(start, _)| start).collect();
+        Ok(Anchors { of_starts, is_lost, lost, tangential })
     }
 }
 

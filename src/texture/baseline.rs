@@ -1,8 +1,9 @@
 //! Texture coordinates by standard projections, to compare with (Schier et al. 2018, section 11, Fig. 18): what modelling tools offer
 //! for soups.
-use crate::data::{Sets, TriangleSoup, sort_keyed};
+use super::seams::seams_between_places;
+use super::{Distortion, Seams, distortion};
+use crate::data::TriangleSoup;
 use crate::math::{Vec2, Vec3, area_vector};
-use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// A projection of the whole soup.
@@ -72,60 +73,104 @@ fn whole(mut corners: [Vec2; 3], turn: f64) -> [Vec2; 3] {
     corners
 }
 
-/// Where a texture is cut.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
-pub struct Seams {
-    /// Parts within which the texture is continuous.
-    pub pieces: usize,
-    /// Millimetres of edges on whose two sides the texture differs.
-    pub length: f64,
+/// A projection as the texture of a soup, to be compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Projected {
+    /// Of the corners of each triangle, from 0 to 1, v upward. Triangles may lie over each other.
+    pub uv: Vec<[Vec2; 3]>,
+    /// Texture coordinates for a millimetre.
+    pub scale: f64,
+    /// How long a full turn is in u, where there is one: coordinates that differ by it are the same.
+    pub turn: Option<f64>,
+    pub distortion: Distortion,
+    pub seams: Seams,
 }
 
-/// The seams of a texture: edges of two triangles at one of whose ends their texture coordinates are more than `tolerance` apart.
-/// `vertices` says which corners are the same, as in the mesh that a soup was made of; `turn` is a length in u by which coordinates may
-/// differ as if they did not, for coordinates that go round.
-pub fn seams(
-    soup: &TriangleSoup,
-    uv: &[[Vec2; 3]],
-    vertices: &[[u32; 3]],
-    tolerance: f64,
-    turn: Option<f64>,
-) -> Seams {
-    let mut sides: Vec<(u64, u32)> = Vec::with_capacity(3 * vertices.len());
-    for (t, corners) in vertices.iter().enumerate() {
-        for k in 0..3 {
-            let (a, b) = (u64::from(corners[k]), u64::from(corners[(k + 1) % 3]));
-            sides.push((a.min(b) << 32 | a.max(b), (3 * t + k) as u32));
+impl Projected {
+    pub fn new(soup: &TriangleSoup, projection: Projection) -> Projected {
+        let (places, turn) = projected(soup, projection);
+        let none = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+        let (low, high) = places.iter().flatten().fold(none, |(low, high), p| (low.min(*p), high.max(*p)));
+        let size = (high - low).max_element();
+        let scale = if size > 0.0 { 1.0 / size } else { 1.0 };
+        let uv: Vec<[Vec2; 3]> = places.iter().map(|corners| corners.map(|p| scale * (p - low))).collect();
+        let turn = turn.map(|turn| scale * turn).filter(|turn| *turn > 0.0);
+        let distortion = distortion((0..soup.len()).map(|t| (soup.corners(t), uv[t])));
+        let seams = seams_between_places(soup, &uv, scale, turn);
+        Projected { uv, scale, turn, distortion, seams }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tube of radius 1 and height 4 around z, open at its ends: 24 strips, of two triangles each.
+    fn tube() -> TriangleSoup {
+        let at = |k: u32, top: bool| {
+            let angle = TAU * f64::from(k % 24) / 24.0;
+            Vec3::new(libm::cos(angle), libm::sin(angle), if top { 4.0 } else { 0.0 })
+        };
+        let strip = |k: u32| {
+            let [a, b, c, d] = [at(k, false), at(k + 1, false), at(k + 1, true), at(k, true)];
+            [a, b, c, a, c, d]
+        };
+        let positions: Vec<Vec3> = (0..24).flat_map(strip).collect();
+        TriangleSoup::new(positions, (0..48).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect()).unwrap()
+    }
+
+    #[test]
+    fn a_tube_is_unrolled_by_a_cylinder_and_cut_by_axes_and_folded_by_a_plane() {
+        let round = Projected::new(&tube(), Projection::Cylindrical);
+        // Chords are shorter than their arcs by π² / (6 · 24²): nearly an isometry, all the way round.
+        assert!(
+            round.distortion.mean_ratio < 1.003 && round.distortion.flipped == 0,
+            "{:?}",
+            round.distortion
+        );
+        assert_eq!((round.seams.pieces, round.seams.length), (1, 0.0));
+        let turn = round.turn.unwrap();
+        assert!((turn / round.scale - TAU).abs() < 1e-12);
+        let axes = Projected::new(&tube(), Projection::Triplanar);
+        // Four sides: each edge between two of them is a seam as high as the tube.
+        assert_eq!((axes.seams.pieces, axes.distortion.flipped), (4, 0));
+        assert!((axes.seams.length - 16.0).abs() < 1e-12, "{:?}", axes.seams);
+        // Seen from one side: half of it is.
+        let plane = Projected::new(&tube(), Projection::Planar);
+        assert_eq!((plane.distortion.flipped + plane.distortion.flat >= 22, plane.turn), (true, None));
+        for found in [&round, &axes, &plane] {
+            assert!(
+                found
+                    .uv
+                    .iter()
+                    .flatten()
+                    .all(|p| p.cmpge(Vec2::ZERO).all() && p.cmple(Vec2::splat(1.0 + 1e-12)).all())
+            );
         }
     }
-    sort_keyed(&mut sides);
-    let ends = |side: u32| {
-        let (t, k) = (side as usize / 3, side as usize % 3);
-        let ends = [uv[t][k], uv[t][(k + 1) % 3]];
-        if vertices[t][k] < vertices[t][(k + 1) % 3] { ends } else { [ends[1], ends[0]] }
-    };
-    let apart = |a: Vec2, b: Vec2| {
-        let mut between = a - b;
-        if let Some(turn) = turn {
-            between.x -= turn * (between.x / turn).round();
-        }
-        between.length() > tolerance
-    };
-    let mut sets = Sets::new(vertices.len());
-    let mut found = Seams::default();
-    for same in sides.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
-        for pair in same.windows(2) {
-            let (one, other) = (ends(pair[0].1), ends(pair[1].1));
-            if apart(one[0], other[0]) || apart(one[1], other[1]) {
-                let (t, k) = (pair[0].1 as usize / 3, pair[0].1 as usize % 3);
-                let corners = soup.corners(t);
-                found.length += corners[k].distance(corners[(k + 1) % 3]);
-            } else {
-                sets.join(pair[0].1 / 3, pair[1].1 / 3);
-            }
-        }
+
+    #[test]
+    fn an_egg_is_one_piece_on_a_sphere_and_worst_next_to_its_poles() {
+        let at = |i: u32, j: u32| {
+            let (polar, round) = (0.5 * TAU * f64::from(i) / 12.0, TAU * f64::from(j % 24) / 24.0);
+            let radius = libm::sin(polar);
+            // Longest along z, so that its poles are there.
+            Vec3::new(radius * libm::cos(round), radius * libm::sin(round), 1.2 * libm::cos(polar))
+        };
+        let quad = |k: u32| {
+            let (i, j) = (k / 24, k % 24);
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            [a, b, c, a, c, d]
+        };
+        // Open at its poles, 15° wide.
+        let positions: Vec<Vec3> = (24..24 * 11).flat_map(quad).collect();
+        let count = positions.len() as u32 / 3;
+        let egg = TriangleSoup::new(positions, (0..count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect());
+        let found = Projected::new(&egg.unwrap(), Projection::Spherical);
+        assert_eq!((found.seams.pieces, found.seams.length, found.distortion.flipped), (1, 0.0, 0));
+        // A degree of longitude is as much shorter as the circle is smaller, from 15° to 30° away from a pole.
+        let least = 1.0 / libm::sin(TAU / 12.0);
+        let found = found.distortion;
+        assert!(found.largest_ratio > least && found.mean_ratio < least, "{found:?}");
     }
-    found.pieces = (0..vertices.len() as u32).filter(|t| sets.find(*t) == *t).count();
-    found
 }

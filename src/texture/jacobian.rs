@@ -47,6 +47,13 @@ pub fn polar([x, y]: Jacobian) -> ([f64; 2], Vec2, Vec2) {
     ([turned + mirrored, turned - mirrored], rotation, Vec2::new(libm::cos(angle), libm::sin(angle)))
 }
 
+/// A triangle laid into the plane as it is, counter-clockwise, its first corner at 0 and the second on the first axis.
+pub fn laid_flat([a, b, c]: [Vec3; 3]) -> [Vec2; 3] {
+    let x = (b - a).normalize_or_zero();
+    let along = (c - a).dot(x);
+    [Vec2::ZERO, Vec2::new(a.distance(b), 0.0), Vec2::new(along, (c - a - along * x).length())]
+}
+
 pub fn determinant([x, y]: Jacobian) -> f64 {
     x.perp_dot(y)
 }

@@ -21,6 +21,17 @@ pub enum SoupLinesError {
     Line(#[from] LineError),
 }
 
+impl SoupLinesConfig {
+    /// Whether soups can be charged and lines followed so.
+    ///
+    /// # Errors
+    /// If and only if an option is out of range.
+    pub fn check(&self) -> Result<(), SoupLinesError> {
+        self.charge.check()?;
+        Ok(self.line.check()?)
+    }
+}
+
 impl From<Cancelled> for SoupLinesError {
     fn from(cancelled: Cancelled) -> SoupLinesError {
         SoupLinesError::Line(cancelled.into())
@@ -37,24 +48,24 @@ pub struct SoupLines {
     pub strength: Vec<f64>,
 }
 
-/// Where the strength is measured, in diagonals of the soup away from the start.
-const NEXT_TO: f64 = 1e-3;
-
 impl SoupLines {
     /// Charges the soup and follows the lines of the field from all its corners.
     ///
     /// # Errors
-    /// If and only if no triangle has an area, an option is out of range, or the monitor cancels.
+    /// If and only if no triangle has an area, an option is out of range, lines have more points than fit, or the monitor cancels.
     pub fn new(
         soup: &Arc<TriangleSoup>,
         config: &SoupLinesConfig,
         monitor: &dyn Monitor,
     ) -> Result<SoupLines, SoupLinesError> {
+        config.check()?;
+        let starts = Starts::new(soup);
+        config.line.check_for(starts.points.len())?;
         let monitor = &Parts::new(monitor);
         monitor.begin(0.0, 0.4);
         let field = ElectricField::solve(soup.clone(), &config.charge, monitor)?;
         monitor.begin(0.4, 1.0);
-        SoupLines::of_field(&field, &config.line, monitor)
+        SoupLines::from(starts, &field, &config.line, monitor)
     }
 
     /// Follows the lines of a field that is there.
@@ -66,12 +77,18 @@ impl SoupLines {
         config: &LineConfig,
         monitor: &dyn Monitor,
     ) -> Result<SoupLines, SoupLinesError> {
-        let soup = field.soup();
-        let starts = Starts::new(soup);
+        SoupLines::from(Starts::new(field.soup()), field, config, monitor)
+    }
+
+    fn from(
+        starts: Starts,
+        field: &ElectricField,
+        config: &LineConfig,
+        monitor: &dyn Monitor,
+    ) -> Result<SoupLines, SoupLinesError> {
         let lines = trace(field, &starts.points, &starts.normals, config, monitor)?;
-        let away = NEXT_TO * soup.bounds().diagonal();
         let beside: Vec<Vec3> =
-            starts.points.iter().zip(&starts.normals).map(|(p, n)| *p + away * *n).collect();
+            (0..starts.points.len() as u32).map(|start| starts.beside(start, field.soup())).collect();
         let sizes: Vec<f64> = field.field(&beside).iter().map(|f| f.length()).collect();
         let order = ascending(sizes.iter().copied());
         let median = order.get(order.len() / 2).map_or(1.0, |k| sizes[*k as usize]);

@@ -1,7 +1,8 @@
 //! All stages in one call; each result is kept, so that a stage can be done again without those before it.
+use super::seams::seams_between_places;
 use super::{
     Anchors, Atlas, AtlasConfig, AtlasError, Distortion, Mapping, MappingReport, Proxy, ProxyConfig,
-    ProxyError, Refined, SoupLines, SoupLinesConfig, SoupLinesError, refined,
+    ProxyError, Refined, Seams, SoupLines, SoupLinesConfig, SoupLinesError, apart_by_chart, refined,
 };
 use crate::data::{Cancelled, Monitor, Parts, TriangleSoup, Warning};
 use crate::winding::{FieldConfig, WindingField};
@@ -22,6 +23,14 @@ pub struct TextureConfig {
 
 impl TextureConfig {
     pub const REACH: f64 = 4.0;
+
+    /// # Errors
+    /// If and only if a number is out of its range, whatever the soup.
+    pub fn check(&self) -> Result<(), TextureError> {
+        self.proxy.check()?;
+        self.atlas.check()?;
+        Ok(self.lines.check()?)
+    }
 }
 
 /// Why a soup got no texture.
@@ -44,10 +53,10 @@ pub struct Texture {
     pub soup: Arc<TriangleSoup>,
     /// The triangle that each is a part of; empty if it was not refined.
     pub sources: Vec<u32>,
-    pub proxy: Proxy,
+    pub proxy: Arc<Proxy>,
     pub atlas: Atlas,
-    pub lines: SoupLines,
-    pub anchors: Anchors,
+    pub lines: Arc<SoupLines>,
+    pub anchors: Arc<Anchors>,
     pub mapping: Mapping,
     /// Warnings of refining.
     warnings: Vec<Warning>,
@@ -67,6 +76,8 @@ pub struct TextureReport {
     /// Share of the texture that is used.
     pub coverage: f64,
     pub proxy_distortion: Distortion,
+    /// Where the texture of the soup is cut.
+    pub seams: Seams,
     pub lines: usize,
     pub mapping: MappingReport,
     /// Those of all stages.
@@ -76,12 +87,13 @@ pub struct TextureReport {
 /// Gives a soup the texture of a proxy around it: proxy, atlas, charges, lines, mapping.
 ///
 /// # Errors
-/// If and only if a stage fails or the monitor cancels.
+/// If and only if a stage fails or the monitor cancels. Numbers that are out of range whatever the soup are refused before work begins.
 pub fn texture(
     soup: Arc<TriangleSoup>,
     config: &TextureConfig,
     monitor: &dyn Monitor,
 ) -> Result<Texture, TextureError> {
+    config.check()?;
     let monitor = &Parts::new(monitor);
     monitor.begin(0.0, 0.1);
     let (soup, sources, warnings) = match config.refine {
@@ -96,11 +108,13 @@ pub fn texture(
     let proxy = Proxy::new(&field, &config.proxy, monitor)?;
     monitor.begin(0.3, 0.5);
     let atlas = Atlas::new(&proxy.mesh, &config.atlas, monitor)?;
-    monitor.begin(0.5, 0.95);
+    monitor.begin(0.5, 0.9);
     let lines = SoupLines::new(&soup, &reaching(&config.lines, &soup, proxy.offset), monitor)?;
-    let anchors = Anchors::new(&lines, &proxy);
+    monitor.begin(0.9, 0.95);
+    let anchors = Anchors::new(&lines, &proxy, monitor)?;
     monitor.begin(0.95, 1.0);
     let mapping = Mapping::new(&soup, &lines, &anchors, &proxy, &atlas, monitor)?;
+    let (proxy, lines, anchors) = (proxy.into(), lines.into(), anchors.into());
     Ok(Texture { soup, sources, proxy, atlas, lines, anchors, mapping, warnings })
 }
 
@@ -132,17 +146,21 @@ impl Texture {
         atlas: &AtlasConfig,
         monitor: &dyn Monitor,
     ) -> Result<Texture, TextureError> {
+        proxy.check()?;
+        atlas.check()?;
         let monitor = &Parts::new(monitor);
         monitor.begin(0.0, 0.4);
         let field = WindingField::new(self.soup.clone(), FieldConfig::default());
-        let proxy = Proxy::new(&field, proxy, monitor)?;
-        monitor.begin(0.4, 0.9);
+        let proxy = Arc::new(Proxy::new(&field, proxy, monitor)?);
+        monitor.begin(0.4, 0.8);
         let atlas = Atlas::new(&proxy.mesh, atlas, monitor)?;
+        monitor.begin(0.8, 0.9);
+        let anchors = Arc::new(Anchors::new(&self.lines, &proxy, monitor)?);
         monitor.begin(0.9, 1.0);
-        self.with(proxy, atlas, monitor)
+        self.with(proxy, anchors, atlas, monitor)
     }
 
-    /// The same lines and proxy with another atlas.
+    /// The same lines and proxy, which thus correspond as they did, with another atlas.
     ///
     /// # Errors
     /// If and only if a stage fails or the monitor cancels.
@@ -151,13 +169,27 @@ impl Texture {
         monitor.begin(0.0, 0.9);
         let atlas = Atlas::new(&self.proxy.mesh, atlas, monitor)?;
         monitor.begin(0.9, 1.0);
-        self.with(self.proxy.clone(), atlas, monitor)
+        self.with(self.proxy.clone(), self.anchors.clone(), atlas, monitor)
     }
 
-    fn with(&self, proxy: Proxy, atlas: Atlas, monitor: &dyn Monitor) -> Result<Texture, TextureError> {
-        let anchors = Anchors::new(&self.lines, &proxy);
+    fn with(
+        &self,
+        proxy: Arc<Proxy>,
+        anchors: Arc<Anchors>,
+        atlas: Atlas,
+        monitor: &dyn Monitor,
+    ) -> Result<Texture, TextureError> {
         let mapping = Mapping::new(&self.soup, &self.lines, &anchors, &proxy, &atlas, monitor)?;
-        Ok(Texture { proxy, atlas, anchors, mapping, ..self.clone() })
+        let Texture { soup, sources, lines, warnings, .. } = self;
+        let (soup, sources, lines, warnings) =
+            (soup.clone(), sources.clone(), lines.clone(), warnings.clone());
+        Ok(Texture { soup, sources, proxy, atlas, lines, anchors, mapping, warnings })
+    }
+
+    /// Where the texture of the soup is cut.
+    pub fn seams(&self) -> Seams {
+        let uv = apart_by_chart(&self.mapping.uv, &self.mapping.charts);
+        seams_between_places(&self.soup, &uv, self.atlas.scale, None)
     }
 
     pub fn report(&self) -> TextureReport {
@@ -170,6 +202,7 @@ impl Texture {
             seam_length: self.atlas.seam_length,
             coverage: self.atlas.coverage,
             proxy_distortion: self.atlas.distortion,
+            seams: self.seams(),
             lines: self.lines.lines.len(),
             mapping: self.mapping.report.clone(),
             warnings: all.into_iter().flatten().cloned().collect(),

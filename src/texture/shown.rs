@@ -14,7 +14,8 @@ impl Texture {
         let mut whole = FieldLines::default();
         chosen.iter().for_each(|start| whole.push(self.lines.lines.line(*start as usize)));
         let mut lines = FieldLines::default();
-        for (k, hit) in first_hits(&whole, &self.proxy.soup()).into_iter().enumerate() {
+        let hits = first_hits(&whole, &self.proxy.soup());
+        for (k, hit) in hits.into_iter().enumerate() {
             let start = chosen[k] as usize;
             let end = self.anchors.of_starts[start].point;
             match hit {

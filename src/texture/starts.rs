@@ -16,6 +16,9 @@ pub struct Starts {
     pub on_boundary: Vec<bool>,
 }
 
+/// How far beside a start the field is asked what it is like there, in diagonals of the soup.
+const BESIDE: f64 = 1e-3;
+
 /// Triangles at a vertex whose normals have a cosine above this belong to one side of the surface there: those around a cube's corner
 /// do, the two sides of a plate do not.
 const SAME_SIDE: f64 = -0.2;
@@ -52,6 +55,11 @@ impl Starts {
             starts.corners.push(all);
         }
         starts
+    }
+
+    /// A point next to a start of a soup, on its side.
+    pub fn beside(&self, start: u32, soup: &TriangleSoup) -> Vec3 {
+        self.points[start as usize] + BESIDE * soup.bounds().diagonal() * self.normals[start as usize]
     }
 }
 

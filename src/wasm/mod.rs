@@ -15,10 +15,12 @@ mod options;
 #[cfg(feature = "pieces")]
 mod pieces;
 mod printing;
+mod projecting;
 mod queries;
 mod repairing;
 mod results;
 mod saving;
+mod texture_failure;
 mod texture_options;
 mod texturing;
 mod voxels;

@@ -8,13 +8,12 @@ use super::printing::plain;
 use super::texture_options::{
     AtlasOptions, ExportOptions, LinesOptions, ProxyOptions, RefineOptions, ShownOptions,
 };
-use crate::charge::{ChargeError, LineError};
 use crate::data::TriangleSoup;
 use crate::io::{write_material_library, write_textured_obj};
 use crate::math::{Vec2, Vec3};
 use crate::texture::{
-    AtlasConfig, AtlasError, ProxyConfig, ProxyError, SeamCost, SeamError, SoupLinesError, Texture,
-    TextureConfig, TextureError, seam_through, smallest_single_offset, texture, transferred,
+    Affected, AtlasConfig, ProxyConfig, SeamCost, Texture, TextureConfig, seam_through,
+    smallest_single_offset, texture, transferred,
 };
 use js_sys::{Array, Float64Array, Object, Reflect, Uint32Array};
 use std::sync::Arc;
@@ -61,7 +60,7 @@ impl Handle {
 }
 
 impl Handle {
-    fn soup_to_texture(&self) -> Result<Arc<TriangleSoup>, Failure> {
+    pub(super) fn soup_to_texture(&self) -> Result<Arc<TriangleSoup>, Failure> {
         let refused = || Failure::invalid("a cloud has no triangles to texture: only soups have");
         self.soup().cloned().ok_or_else(refused)
     }
@@ -113,6 +112,27 @@ impl TextureHandle {
             ("uvs", singles_to(&coordinates(corners))?.into()),
             ("charts", indices_to(&atlas.charts)?.into()),
             ("seams", indices_to(atlas.seams(mesh).as_flattened())?.into()),
+        ]))
+    }
+
+    /// Triangles that did not simply go where their lines meet the proxy, as lists of their numbers: see [`Affected`].
+    ///
+    /// # Errors
+    /// If and only if memory does not suffice.
+    pub fn affected(&self) -> Result<Object, JsValue> {
+        let Affected { across, moved, folded, squashed, unfolded, flipped, torn, lost, tangential, weak } =
+            &self.texture.mapping.affected;
+        Ok(object([
+            ("across", indices_to(across)?.into()),
+            ("moved", indices_to(moved)?.into()),
+            ("folded", indices_to(folded)?.into()),
+            ("squashed", indices_to(squashed)?.into()),
+            ("unfolded", indices_to(unfolded)?.into()),
+            ("flipped", indices_to(flipped)?.into()),
+            ("torn", indices_to(torn)?.into()),
+            ("lost", indices_to(lost)?.into()),
+            ("tangential", indices_to(tangential)?.into()),
+            ("weak", indices_to(weak)?.into()),
         ]))
     }
 
@@ -197,71 +217,6 @@ fn flat(vectors: &[Vec3]) -> Result<Float64Array, Failure> {
 }
 
 /// uvuvuv of each triangle.
-fn coordinates(corners: impl Iterator<Item = [Vec2; 3]>) -> Vec<f32> {
+pub(super) fn coordinates(corners: impl Iterator<Item = [Vec2; 3]>) -> Vec<f32> {
     corners.flatten().flat_map(|uv| uv.as_vec2().to_array()).collect()
-}
-
-impl From<TextureError> for Failure {
-    fn from(error: TextureError) -> Failure {
-        match error {
-            TextureError::Proxy(proxy) => proxy.into(),
-            TextureError::Atlas(atlas) => atlas.into(),
-            TextureError::Lines(SoupLinesError::Charge(charge)) => charge.into(),
-            TextureError::Lines(SoupLinesError::Line(line)) => line.into(),
-            TextureError::Cancelled(cancelled) => cancelled.into(),
-        }
-    }
-}
-
-impl From<ProxyError> for Failure {
-    fn from(error: ProxyError) -> Failure {
-        match error {
-            ProxyError::Surface(surface) => surface.into(),
-            ProxyError::Field(field) => field.into(),
-            ProxyError::NoTriangles => Failure::new("EmptyInput", &error),
-            ProxyError::BadOffset(_) | ProxyError::TooFewSamples(_) => Failure::invalid(&error),
-        }
-    }
-}
-
-impl From<AtlasError> for Failure {
-    fn from(error: AtlasError) -> Failure {
-        match error {
-            AtlasError::Cancelled(cancelled) => cancelled.into(),
-            AtlasError::Seam(seam) => seam.into(),
-            AtlasError::NoTriangles => Failure::new("EmptyInput", &error),
-            AtlasError::DoesNotFit { charts, side, margin } => Failure::new("DoesNotFit", &error).with([
-                ("charts", charts.into()),
-                ("texels", side.into()),
-                ("margin", margin.into()),
-            ]),
-            AtlasError::BadCone(_) | AtlasError::BadTexels(_) => Failure::invalid(&error),
-        }
-    }
-}
-
-impl From<SeamError> for Failure {
-    fn from(error: SeamError) -> Failure {
-        Failure::invalid(error)
-    }
-}
-
-impl From<ChargeError> for Failure {
-    fn from(error: ChargeError) -> Failure {
-        match error {
-            ChargeError::NoArea { .. } => Failure::new("EmptyInput", &error),
-            ChargeError::BadNumber { .. } => Failure::invalid(&error),
-            ChargeError::OutOfMemory(out_of_memory) => out_of_memory.into(),
-            ChargeError::Cancelled(cancelled) => cancelled.into(),
-        }
-    }
-}
-
-impl From<LineError> for Failure {
-    fn from(error: LineError) -> Failure {
-        match error {
-            LineError::Cancelled(cancelled) => cancelled.into(),
-            _ => Failure::invalid(&error),
-        }
-    }
 }

@@ -6,10 +6,10 @@ use common::parts::{genus_five, gridded_cube, selector, torn};
 use common::{sphere, torus};
 use fast_winding::TriangleSoup;
 use fast_winding::data::Silent;
-use fast_winding::math::{Vec2, Vec3};
+use fast_winding::math::Vec3;
 use fast_winding::texture::{
     Anchors, Atlas, AtlasConfig, Distortion, Mapping, Projection, Proxy, ProxyConfig, ProxySides, Seams,
-    Texture, TextureConfig, distortion, projected, seams, smallest_single_offset, texture,
+    Texture, TextureConfig, apart_by_chart, distortion, projected, seams, smallest_single_offset, texture,
 };
 use fast_winding::winding::{FieldConfig, WindingField};
 use std::collections::HashMap;
@@ -49,9 +49,9 @@ fn main() {
         rows.push(run(&case));
     }
     println!(
-        "\n| model | triangles | offset | proxy | charts | across | moved | folded | unfolded | flipped | torn | lost | weak |"
+        "\n| model | triangles | offset | proxy | charts | across | moved | folded | squashed | unfolded | flipped | torn | lost | weak |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     rows.iter().for_each(|row| println!("{}", row.counts));
     println!(
         "\n| model | texture | angles: mean ratio | largest | areas: spread | flipped + flat | pieces | seams, mm |"
@@ -125,7 +125,7 @@ fn run(case: &Case) -> Row {
     let report = made.report();
     let mapping = &report.mapping;
     let counts = format!(
-        "| {} | {} | {:.1} % | {} in {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+        "| {} | {} | {:.1} % | {} in {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
         case.name,
         mapping.triangles,
         100.0 * case.offset,
@@ -135,6 +135,7 @@ fn run(case: &Case) -> Row {
         mapping.across_charts,
         mapping.moved,
         mapping.folded,
+        mapping.squashed,
         mapping.unfolded,
         mapping.flipped,
         mapping.torn,
@@ -143,10 +144,9 @@ fn run(case: &Case) -> Row {
     );
     let vertices = welded(clean);
     let mut distortions = vec![line(case.name, "proxy", &report.proxy_distortion, None)];
-    // Differences of half a mean edge are noise, not seams; charts that touch by chance of packing are moved apart.
+    // Differences of half a mean edge are noise, not seams.
     let edge = mean_edge(clean);
-    let apart = |(uv, chart): (&[Vec2; 3], &u32)| uv.map(|p| p + 10.0 * f64::from(*chart) * Vec2::X);
-    let by_chart: Vec<[Vec2; 3]> = made.mapping.uv.iter().zip(&made.mapping.charts).map(apart).collect();
+    let by_chart = apart_by_chart(&made.mapping.uv, &made.mapping.charts);
     let ours = seams(clean, &by_chart, &vertices, 0.5 * edge * made.atlas.scale, None);
     distortions.push(line(case.name, "ours", &mapping.distortion, Some(ours)));
     for (name, projection) in [
@@ -203,7 +203,7 @@ fn times(case: &Case, whole: f64, config: &TextureConfig, made: &Texture) -> Str
     let proxy = median(&mut || drop(Proxy::new(&field, &config.proxy, &Silent).unwrap()));
     let atlas = median(&mut || drop(Atlas::new(&made.proxy.mesh, &AtlasConfig::default(), &Silent).unwrap()));
     let again = median(&mut || {
-        let anchors = Anchors::new(&made.lines, &made.proxy);
+        let anchors = Anchors::new(&made.lines, &made.proxy, &Silent).unwrap();
         drop(Mapping::new(soup, &made.lines, &anchors, &made.proxy, &made.atlas, &Silent).unwrap());
     });
     let lines = whole - proxy - atlas - again;

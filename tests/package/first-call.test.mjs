@@ -32,6 +32,7 @@ const ofSoups = {
   boolean: (soup) => soup.boolean('union', soup),
   texture: (soup) => soup.texture({ offset: 2, resolution: 10, steps: 20 }),
   suggestOffset: (soup) => soup.suggestOffset(),
+  project: (soup) => soup.project(),
   boundaryEdges: (soup) => soup.boundaryEdges(),
   toCloud: (soup) => soup.toCloud(),
   geometry: (soup) => soup.geometry(),

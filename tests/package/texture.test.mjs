@@ -1,4 +1,5 @@
-// Textures through the package, in both entries: a box, a sphere, one triangle; other proxies and atlases, seams, files, and what is refused.
+// Textures through the package, in both entries: a box, a sphere, one triangle; other proxies and atlases, seams, files, projections, and
+// what is refused.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { install } from './install.mjs';
@@ -65,6 +66,26 @@ for (const [name, start] of Object.entries(entries)) {
       const apart = points(uvs, 6).filter((corners, k) => !inChart(corners, k)).length;
       assert.ok(apart <= mapping.unfolded, `${apart} triangles reach beyond their charts, ${mapping.unfolded} may`);
       assert.ok(points(uvs, 6).every((corners) => doubled(corners) > 0));
+    });
+    await t.test('lists of triangles are as long as the report says, and tell which', async () => {
+      const { mapping } = texture.report;
+      const affected = await texture.affected();
+      const { across, moved, folded, squashed, unfolded, flipped, torn, lost, tangential, weak } = affected;
+      const lengths = [across, moved, folded, squashed, unfolded, flipped, torn, weak].map((list) => list.length);
+      const { acrossCharts, weakField } = mapping;
+      assert.deepEqual(lengths, [acrossCharts, mapping.moved, mapping.folded, mapping.squashed, mapping.unfolded, 0, mapping.torn, weakField]);
+      assert.deepEqual([lost.length, tangential.length], [0, 0]);
+      for (const list of Object.values(affected)) assert.ok(list instanceof Uint32Array && list.every((t, k) => t < round.count && !(list[k - 1] >= t)));
+      // Each of those across has a corner next to a seam: no farther than its longest edge.
+      const { positions, seams } = await texture.proxy();
+      const ends = [...seams].map((vertex) => [...positions.slice(3 * vertex, 3 * vertex + 3)].map((x) => x / 1.2));
+      const given = ball(16, 10);
+      for (const t of across) {
+        const corners = [0, 1, 2].map((k) => given.indices[3 * t + k]).map((v) => [...given.positions.slice(3 * v, 3 * v + 3)]);
+        const longest = Math.max(...[0, 1, 2].map((k) => distance(corners[k], corners[(k + 1) % 3])));
+        assert.ok(corners.some((p) => ends.some((end) => distance(p, end) < longest)), `triangle ${t}`);
+      }
+      assert.ok(across.length > 0);
     });
     await t.test('its proxy: closed, an offset away, cut along seams', async () => {
       const { positions, indices, uvs, charts, seams } = await texture.proxy();
@@ -172,6 +193,8 @@ for (const [name, start] of Object.entries(entries)) {
       const cube = await fw.Soup.from(box(0, 10));
       const { report } = await cube.texture({ offset: 1, ...SMALL });
       assert.deepEqual([report.charts, report.mapping.triangles, report.mapping.flipped, report.mapping.lostLines], [6, 12, 0, 0]);
+      assert.equal(report.seams.pieces, 6);
+      near(report.seams.length, 120, 1e-9);
       const [one, other] = [box(0, 10), box(5, 15)];
       const both = await fw.Soup.from({
         positions: new Float64Array([...one.positions, ...other.positions]),
@@ -181,6 +204,18 @@ for (const [name, start] of Object.entries(entries)) {
       const { indices, sources, uvs } = await refined.geometry();
       assert.ok(sources.length > 24 && sources.every((source) => source < 24));
       assert.deepEqual([3 * sources.length, 6 * sources.length], [indices.length, uvs.length]);
+    });
+    await t.test('projections, to compare with', async () => {
+      const soup = await fw.Soup.from(box(0, 10));
+      const axes = await soup.project();
+      assert.deepEqual([axes.seams, axes.turn, axes.distortion.flipped], [{ pieces: 6, length: 120 }, undefined, 0]);
+      near(axes.distortion.meanRatio, 1, 1e-12);
+      assert.ok(axes.uvs instanceof Float32Array && axes.uvs.length === 72 && axes.uvs.every((x) => x >= 0 && x <= 1));
+      near(doubled(axes.uvs.subarray(0, 6)) / axes.scale ** 2, 100, 1e-4);
+      const flat = await soup.project({ method: 'planar' });
+      assert.deepEqual([flat.distortion.flipped + flat.distortion.flat, flat.seams.pieces], [10, 1]);
+      for (const method of ['cylindrical', 'spherical']) assert.ok((await soup.project({ method })).turn > 0, method);
+      assert.equal(await failure(() => soup.project({ method: 'conformal' })), 'InvalidArgument');
     });
     await t.test('one triangle, and parts far apart', async () => {
       const one = await fw.Soup.from({ positions: new Float64Array([0, 0, 0, 10, 0, 0, 0, 10, 0]) });
@@ -207,10 +242,13 @@ for (const [name, start] of Object.entries(entries)) {
         { offset: 0 }, { offset: NaN }, { offset: -1 }, { offset: Infinity }, { offset: '1' }, { resolution: 1 }, { resolution: 2.5 },
         { sides: 'inner' }, { smoothing: -1 }, { cone: 90 }, { cone: NaN }, { texels: 4 }, { seams: [[0, 1e6]] }, { seams: 3 },
         { solver: 'jacobi' }, { tolerance: 0 }, { integrator: 'verlet' }, { step: -1 }, { startOffset: 0 }, { largestTurn: NaN },
+        { steps: 1e9 }, { steps: -1 },
       ];
       for (const options of refused) {
         assert.equal(await failure(() => small.texture({ ...SMALL, ...options })), 'InvalidArgument', JSON.stringify(options));
       }
+      await assert.rejects(async () => small.texture({ largestTurn: -20 }), /-20 degrees/);
+      assert.equal(await failure(() => cloud.project()), 'InvalidArgument');
       assert.equal(await failure(() => small.texture({ texels: 32, margin: 16, ...SMALL })), 'DoesNotFit');
       assert.equal(await failure(() => small.texture({ resolution: 100_000 })), 'OutOfMemory');
       assert.equal(await failure(() => texture.lines({ count: -1 })), 'InvalidArgument');

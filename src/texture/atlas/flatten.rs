@@ -4,7 +4,7 @@ use super::overlap::is_simple;
 use super::slim::relax;
 use super::system::System;
 use crate::math::{Vec2, Vec3};
-use crate::texture::jacobian::Rest;
+use crate::texture::jacobian::{Rest, laid_flat};
 use std::f64::consts::TAU;
 
 /// Share of its area that each triangle shows along the axis at least, so that the view is a place to relax from.
@@ -17,23 +17,15 @@ const TUTTE_STEPS: usize = 20_000;
 pub fn flattened(chart: &Chart, rounds: usize) -> Option<Vec<Vec2>> {
     let corners = |t: &[u32; 3]| t.map(|v| chart.positions[v as usize]);
     if let [only] = &chart.triangles[..] {
-        return Some(alone(chart.positions.len(), *only, corners(only)));
+        let mut uv = vec![Vec2::ZERO; chart.positions.len()];
+        only.iter().zip(laid_flat(corners(only))).for_each(|(v, place)| uv[*v as usize] = place);
+        return Some(uv);
     }
     let (rest, triangles): (Vec<Rest>, Vec<[u32; 3]>) =
         chart.triangles.iter().filter_map(|t| Some((Rest::new(corners(t))?, *t))).unzip();
     let mut uv = projected(chart, &rest, &triangles).or_else(|| on_disk(chart, &rest, &triangles))?;
     relax(&rest, &triangles, &mut uv, rounds);
     (all_positive(&triangles, &uv) && is_simple(&chart.rim, &uv)).then_some(uv)
-}
-
-/// A triangle as it is.
-fn alone(vertices: usize, triangle: [u32; 3], [a, b, c]: [Vec3; 3]) -> Vec<Vec2> {
-    let x = (b - a).normalize_or_zero();
-    let along = (c - a).dot(x);
-    let mut uv = vec![Vec2::ZERO; vertices];
-    uv[triangle[1] as usize] = Vec2::new(a.distance(b), 0.0);
-    uv[triangle[2] as usize] = Vec2::new(along, (c - a - along * x).length());
-    uv
 }
 
 fn doubled_area([a, b, c]: [Vec2; 3]) -> f64 {

@@ -51,3 +51,51 @@ fn neighbours(faces: &Faces, charts: &[u32]) -> Vec<(u32, u32)> {
     pairs.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     pairs.into_iter().map(|(pair, _)| pair).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::SurfaceMesh;
+
+    /// A roof of 2 × 4 squares of two triangles each, whose sides fall by 40° from the ridge x = 0.
+    fn roof() -> SurfaceMesh {
+        let slope = 40f64.to_radians();
+        let place = |k: u32| {
+            let (x, y) = (f64::from(k % 3) - 1.0, f64::from(k / 3));
+            (Vec3::new(libm::cos(slope) * x, y, -libm::sin(slope) * x.abs()), x)
+        };
+        let quad = |k: u32| {
+            let v = k / 2 * 3 + k % 2;
+            [[v, v + 1, v + 4], [v, v + 4, v + 3]]
+        };
+        let normal = |x: f64| Vec3::new(libm::sin(slope) * x, 0.0, libm::cos(slope)).normalize();
+        SurfaceMesh {
+            positions: (0..15).map(|k| place(k).0).collect(),
+            normals: (0..15).map(|k| normal(place(k).1)).collect(),
+            triangles: (0..8).flat_map(quad).collect(),
+        }
+    }
+
+    #[test]
+    fn charts_of_a_roof_are_joined_as_far_as_they_face_alike() {
+        let mesh = roof();
+        let faces = Faces::new(&mesh, &[]);
+        // Each triangle has its own chart at first.
+        let joined = |degrees: f64| {
+            let mut found = Segments { charts: (0..16).collect(), count: 16 };
+            merge(&faces, &mut found, libm::cos(f64::to_radians(degrees)));
+            found.charts
+        };
+        let count = |charts: &[u32]| charts.iter().collect::<std::collections::HashSet<_>>().len();
+        // Normals are those of corners averaged, next to the ridge those of both sides: 13° and 27° from the vertical.
+        assert_eq!(count(&joined(28.0)), 1);
+        let two = joined(10.0);
+        assert_eq!(count(&two), 2);
+        // Squares come in pairs, one for each side.
+        assert!(
+            (0..16).all(|t| two[t] == two[t % 4]) && two[0] == two[1] && two[2] == two[3] && two[0] != two[2]
+        );
+        // Neighbours differ by 14° or more.
+        assert_eq!(count(&joined(6.0)), 16);
+    }
+}

@@ -14,7 +14,7 @@ mod system;
 
 pub use seams::{SeamCost, SeamError, seam_through};
 
-use crate::data::{Cancelled, Monitor, SurfaceMesh, map_tasks};
+use crate::data::{Cancelled, Monitor, Parts, SurfaceMesh, map_tasks};
 use crate::math::Vec2;
 use crate::texture::distortion::{Distortion, distortion};
 use charts::{Chart, chart_of, disks, halves};
@@ -96,7 +96,10 @@ impl Atlas {
     /// # Errors
     /// If and only if the mesh is empty, an option is out of range, the charts do not fit, or the monitor cancels.
     pub fn new(mesh: &SurfaceMesh, config: &AtlasConfig, monitor: &dyn Monitor) -> Result<Atlas, AtlasError> {
-        check(mesh, config)?;
+        config.check()?;
+        config.check_seams(mesh)?;
+        let monitor = &Parts::new(monitor);
+        monitor.begin(0.0, 0.3);
         let mut seams: Vec<[u32; 2]> = config.seams.iter().map(|[a, b]| [*a.min(b), *a.max(b)]).collect();
         seams.sort_unstable();
         let faces = Faces::new(mesh, &seams);
@@ -105,9 +108,10 @@ impl Atlas {
             false => segment(&faces, config, monitor)?,
         };
         let charts = disks(&faces, &mut found);
+        monitor.begin(0.3, 0.9);
         let (charts, places) = flat(&faces, charts, config, monitor)?;
-        let packed = pack::packed(places, config.texels, config.margin)?;
-        monitor.report(1.0, "atlas")?;
+        monitor.begin(0.9, 1.0);
+        let packed = pack::packed(places, config.texels, config.margin, monitor)?;
         Ok(Atlas::assemble(mesh, &charts, packed, config.texels))
     }
 
@@ -160,20 +164,30 @@ impl Atlas {
     }
 }
 
-fn check(mesh: &SurfaceMesh, config: &AtlasConfig) -> Result<(), AtlasError> {
-    if mesh.triangles.is_empty() {
-        return Err(AtlasError::NoTriangles);
+impl AtlasConfig {
+    /// Whether meshes can have such an atlas.
+    ///
+    /// # Errors
+    /// If and only if a number is out of its range.
+    pub fn check(&self) -> Result<(), AtlasError> {
+        if !(10.0..=80.0).contains(&self.cone_degrees) {
+            return Err(AtlasError::BadCone(self.cone_degrees));
+        }
+        if !(16..=65_536).contains(&self.texels) {
+            return Err(AtlasError::BadTexels(self.texels));
+        }
+        Ok(())
     }
-    if !(10.0..=80.0).contains(&config.cone_degrees) {
-        return Err(AtlasError::BadCone(config.cone_degrees));
-    }
-    if !(16..=65_536).contains(&config.texels) {
-        return Err(AtlasError::BadTexels(config.texels));
-    }
-    let vertices = mesh.positions.len();
-    match config.seams.iter().flatten().find(|v| **v as usize >= vertices) {
-        Some(vertex) => Err(SeamError::NoSuchVertex { vertex: *vertex, vertices }.into()),
-        None => Ok(()),
+
+    fn check_seams(&self, mesh: &SurfaceMesh) -> Result<(), AtlasError> {
+        if mesh.triangles.is_empty() {
+            return Err(AtlasError::NoTriangles);
+        }
+        let vertices = mesh.positions.len();
+        match self.seams.iter().flatten().find(|v| **v as usize >= vertices) {
+            Some(vertex) => Err(SeamError::NoSuchVertex { vertex: *vertex, vertices }.into()),
+            None => Ok(()),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Charts placed in a square: each turned into its smallest box, boxes packed by the guillotine method at the largest scale that fits.
 use super::AtlasError;
-use crate::data::ascending;
+use crate::data::{Monitor, ascending};
 use crate::math::Vec2;
 use guillotiere::{AtlasAllocator, size2};
 
@@ -18,8 +18,13 @@ pub struct Packed {
 /// sides.
 ///
 /// # Errors
-/// If and only if they do not fit at any scale: each takes a texel and its margin.
-pub fn packed(charts: Vec<Vec<Vec2>>, side: u32, margin: u32) -> Result<Packed, AtlasError> {
+/// If and only if they do not fit at any scale, as each takes a texel and its margin, or the monitor cancels.
+pub fn packed(
+    charts: Vec<Vec<Vec2>>,
+    side: u32,
+    margin: u32,
+    monitor: &dyn Monitor,
+) -> Result<Packed, AtlasError> {
     let charts: Vec<Vec<Vec2>> = charts.into_iter().map(upright).collect();
     let sizes: Vec<Vec2> =
         charts.iter().map(|chart| chart.iter().fold(Vec2::ZERO, |size, p| size.max(*p))).collect();
@@ -34,7 +39,8 @@ pub fn packed(charts: Vec<Vec<Vec2>>, side: u32, margin: u32) -> Result<Packed, 
         high = texels;
     }
     let (mut low, mut best) = (0.0, None);
-    for _ in 0..HALVINGS {
+    for halving in 0..HALVINGS {
+        monitor.report(halving as f64 / HALVINGS as f64, "packing")?;
         let scale = if best.is_none() { 0.5 * high } else { 0.5 * (low + high) };
         match placed(&sizes, &order, scale, side, margin) {
             Some(places) => {
@@ -50,6 +56,7 @@ pub fn packed(charts: Vec<Vec<Vec2>>, side: u32, margin: u32) -> Result<Packed, 
     let at = |(chart, corner): (Vec<Vec2>, &Vec2)| {
         chart.into_iter().map(|p| (scale * p + *corner) / texels).collect()
     };
+    monitor.report(1.0, "packing")?;
     Ok(Packed { places: charts.into_iter().zip(&corners).map(at).collect(), scale })
 }
 
@@ -121,6 +128,7 @@ fn hull(points: &[Vec2]) -> Vec<Vec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::data::Silent;
 
     #[test]
     fn a_turned_rectangle_gets_its_own_box() {
@@ -137,7 +145,7 @@ mod tests {
         let charts: Vec<Vec<Vec2>> =
             (0..40).map(|k| square(1.0 + f64::from(k % 5), 1.0 + f64::from(k % 3))).collect();
         let area: f64 = (0..40).map(|k| (1.0 + f64::from(k % 5)) * (1.0 + f64::from(k % 3))).sum();
-        let found = packed(charts, 1024, 4).unwrap();
+        let found = packed(charts, 1024, 4, &Silent).unwrap();
         let boxes: Vec<(Vec2, Vec2)> = found.places.iter().map(|chart| extent(chart, Vec2::X)).collect();
         for (k, (low, high)) in boxes.iter().enumerate() {
             assert!(low.cmpge(Vec2::ZERO).all() && high.cmple(Vec2::ONE).all());
@@ -147,6 +155,6 @@ mod tests {
             }
         }
         assert!(area * found.scale.powi(2) / 1024f64.powi(2) > 0.7);
-        assert!(packed(vec![square(1.0, 1.0); 100], 16, 4).is_err());
+        assert!(packed(vec![square(1.0, 1.0); 100], 16, 4, &Silent).is_err());
     }
 }

@@ -1,11 +1,14 @@
 //! Triangles across seams: put into one chart by its closest points, whichever keeps the area best (Schier et al. 2018, section 8).
-use crate::data::{Shape, SurfaceMesh, TriangleSoup};
+//!
+//! At a corner of three charts a triangle's lines may all miss the chart in front of it, which is tried too. What is flipped or squashed
+//! in each of them, as it lies across a sharp edge, in a narrow place or inside of other parts, is laid flat.
+use super::charts::Charts;
+use super::lay::laid;
+use crate::data::{Cancelled, Monitor, Parts, Shape, TriangleSoup, fill_in_blocks};
 use crate::distance::DistanceTree;
-use crate::math::{Vec2, Vec3, area_vector};
+use crate::math::{Vec2, Vec3, area_vector, barycentre};
 use crate::texture::jacobian::{Rest, polar};
-use crate::texture::{Anchor, Anchors, Atlas, Proxy, SoupLines};
-use glam::DQuat;
-use rustc_hash::FxHashMap;
+use crate::texture::{Anchor, Anchors, SoupLines};
 use std::sync::Arc;
 
 /// How a triangle got its place.
@@ -28,9 +31,16 @@ pub struct Placed {
     pub outcome: Outcome,
     /// Whether its corners met different charts.
     pub is_across: bool,
-    /// Whether it was flipped or flat where its corners met one chart.
+    /// Whether it was flipped or flat where its corners met one chart, and whether it was squashed there.
     pub is_folded: bool,
+    pub is_squashed: bool,
 }
+
+/// A triangle with less than this share of the area that it should have counts as flat.
+const FLAT: f64 = 1e-6;
+/// A triangle that is this many times as long as wide in the texture, against what it is in space, or as large or small, is better laid
+/// into a chart as it is.
+const SQUASHED: f64 = 8.0;
 
 impl Placed {
     /// Its area over that in space, at the scale of the atlas; nothing if it has none in space.
@@ -38,134 +48,136 @@ impl Placed {
         let area = area_vector(corners).length() * scale * scale;
         (area > 0.0).then(|| signed_area(self.uv) / area)
     }
+
+    /// Whether it is flipped, or flat.
+    pub fn is_flat(&self, corners: [Vec3; 3], scale: f64) -> bool {
+        self.area_ratio(corners, scale).is_some_and(|ratio| ratio <= FLAT)
+    }
+
+    /// Whether lines or closest points have left little of it, or torn it apart.
+    fn is_distorted(&self, corners: [Vec3; 3], scale: f64) -> bool {
+        let Some(rest) = Rest::new(corners) else { return false };
+        let [large, small] = polar(rest.jacobian(self.uv)).0.map(|s| s / scale);
+        large > SQUASHED * small || !(1.0 / SQUASHED..=SQUASHED).contains(&(large * small))
+    }
 }
-
-/// A triangle with less than this share of the area that it should have counts as flat.
-const FLAT: f64 = 1e-6;
-
-/// A triangle across seams that is this many times as long as wide in the texture, against what it is in space, or as large or small, is
-/// better laid into a chart as it is.
-const SQUASHED: f64 = 8.0;
 
 fn signed_area([a, b, c]: [Vec2; 3]) -> f64 {
     0.5 * (b - a).perp_dot(c - a)
 }
 
-/// The charts of a proxy, each with a search for its closest point where triangles lie across its seams.
-pub struct Charts<'a> {
-    proxy: &'a Proxy,
-    atlas: &'a Atlas,
-    /// With the triangles of the mesh, in the order of the tree's.
-    trees: Vec<Option<(DistanceTree, Vec<u32>)>>,
-}
-
-impl<'a> Charts<'a> {
-    pub fn new(proxy: &'a Proxy, atlas: &'a Atlas, lines: &SoupLines, anchors: &Anchors) -> Charts<'a> {
-        let chart = |start: &u32| atlas.charts[anchors.of_starts[*start as usize].face as usize];
-        let mut is_needed = vec![false; atlas.chart_count];
-        for corners in &lines.starts.corners {
-            let all = [chart(&corners[0]), chart(&corners[1]), chart(&corners[2])];
-            if all != [all[0]; 3] {
-                all.iter().for_each(|c| is_needed[*c as usize] = true);
-            }
-        }
-        let mut of = vec![Vec::new(); atlas.chart_count];
-        (0..).zip(&atlas.charts).for_each(|(t, c)| of[*c as usize].push(t));
-        let tree = |(faces, is_needed): (Vec<u32>, bool)| {
-            is_needed.then(|| {
-                let soup = part(&proxy.mesh, &faces);
-                (DistanceTree::new(&Shape::Soup(Arc::new(soup))), faces)
-            })
-        };
-        Charts { proxy, atlas, trees: of.into_iter().zip(is_needed).map(tree).collect() }
+/// Where the triangles of a soup come to lie.
+///
+/// # Errors
+/// If and only if the monitor cancels.
+pub fn all_placed(
+    charts: &mut Charts,
+    soup: &TriangleSoup,
+    lines: &SoupLines,
+    anchors: &Anchors,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Placed>, Cancelled> {
+    let monitor = &Parts::new(monitor);
+    let of = |t: usize| lines.starts.corners[t].map(|s| anchors.of_starts[s as usize]);
+    let mut all = vec![Placed::default(); soup.len()];
+    monitor.begin(0.0, 0.2);
+    let place = |t: usize, _: &mut ()| met(charts, soup.corners(t), of(t));
+    fill_in_blocks(&mut all, place, "texture", monitor)?;
+    let open: Vec<usize> = (0..all.len()).filter(|t| all[*t].outcome != Outcome::Met).collect();
+    if open.is_empty() {
+        return Ok(all);
     }
-
-    /// The point of a chart that is closest to an anchor: itself, if it lies there.
-    fn closest(&self, chart: u32, anchor: &Anchor) -> Anchor {
-        if self.atlas.charts[anchor.face as usize] == chart {
-            return *anchor;
-        }
-        let found = self.trees[chart as usize].as_ref().and_then(|(tree, faces)| {
-            let nearest = tree.closest(anchor.point)?;
-            let face = faces[nearest.element as usize];
-            Some(Anchor { face, barycentric: nearest.barycentric, point: nearest.point })
-        });
-        found.unwrap_or(*anchor)
-    }
-
-    fn uv(&self, anchors: &[Anchor; 3]) -> [Vec2; 3] {
-        anchors.map(|anchor| self.atlas.at(anchor.face, anchor.barycentric))
-    }
-
-    /// Where a triangle comes to lie whose corners correspond to `anchors`.
-    pub fn placed(&self, corners: [Vec3; 3], anchors: [Anchor; 3]) -> Placed {
-        let charts = anchors.map(|anchor| self.atlas.charts[anchor.face as usize]);
-        let is_across = charts != [charts[0]; 3];
-        let area = area_vector(corners).length() * self.atlas.scale * self.atlas.scale;
-        let is_flat = |uv: [Vec2; 3]| area > 0.0 && signed_area(uv) <= FLAT * area;
-        let candidate = |chart: u32| {
-            let moved = anchors.map(|anchor| self.closest(chart, &anchor));
-            let uv = self.uv(&moved);
-            (chart, moved, uv, (signed_area(uv) - area).abs())
-        };
-        let nearer = |best: (u32, [Anchor; 3], [Vec2; 3], f64), other: (u32, [Anchor; 3], [Vec2; 3], f64)| {
-            if other.3 < best.3 { other } else { best }
-        };
-        let best = match is_across {
-            false => (charts[0], anchors, self.uv(&anchors), 0.0),
-            true => nearer(nearer(candidate(charts[0]), candidate(charts[1])), candidate(charts[2])),
-        };
-        let (chart, moved, uv, _) = best;
-        let is_bad = is_flat(uv) || is_across && self.is_squashed(corners, uv);
-        let outcome = match (is_bad, is_across) {
-            (true, _) => Outcome::Unfolded,
-            (false, true) => Outcome::Moved,
-            (false, false) => Outcome::Met,
-        };
-        let uv = if is_bad { self.unfolded(corners, &moved) } else { uv };
-        Placed { uv, chart, outcome, is_across, is_folded: is_bad && !is_across }
-    }
-
-    /// Whether the closest points have left little of a triangle, or torn it apart.
-    fn is_squashed(&self, corners: [Vec3; 3], uv: [Vec2; 3]) -> bool {
-        let Some(rest) = Rest::new(corners) else { return false };
-        let [large, small] = polar(rest.jacobian(uv)).0.map(|s| s / self.atlas.scale);
-        let area = large * small;
-        large > SQUASHED * small || !(1.0 / SQUASHED..=SQUASHED).contains(&area)
-    }
-
-    /// The triangle as it is in space, turned by the least angle into the plane of the face that its first corner corresponds to, and
-    /// laid into the texture as that is: with its middle where the middle of its corners is.
-    fn unfolded(&self, corners: [Vec3; 3], anchors: &[Anchor; 3]) -> [Vec2; 3] {
-        let face = anchors[0].face;
-        let mesh = &self.proxy.mesh;
-        let places = mesh.triangles[face as usize].map(|v| mesh.positions[v as usize]);
-        let (normal, own) =
-            (area_vector(places).normalize_or_zero(), area_vector(corners).normalize_or_zero());
-        let Some(rest) = Rest::new(places) else { return self.uv(anchors) };
-        let [dx, dy] = rest.jacobian(self.atlas.corners_of(face));
-        let x = (places[1] - places[0]).normalize_or_zero();
-        let y = normal.cross(x);
-        let turn = DQuat::from_rotation_arc(own, normal);
-        let middle = corners.iter().sum::<Vec3>() / 3.0;
-        let of_uv = self.uv(anchors).into_iter().sum::<Vec2>() / 3.0;
-        corners.map(|p| {
-            let p = turn * (p - middle);
-            of_uv + p.dot(x) * dx + p.dot(y) * dy
-        })
-    }
-}
-
-/// The soup of some triangles of a mesh.
-fn part(mesh: &SurfaceMesh, faces: &[u32]) -> TriangleSoup {
-    let mut numbers = FxHashMap::default();
-    let mut positions = Vec::new();
-    let mut number = |v: u32| {
-        *numbers.entry(v).or_insert_with(|| {
-            positions.push(mesh.positions[v as usize]);
-            positions.len() as u32 - 1
-        })
+    monitor.begin(0.2, 0.4);
+    let fronts = in_front(charts, soup, &open, monitor)?;
+    monitor.begin(0.4, 0.6);
+    let needed: Vec<u32> =
+        open.iter().zip(&fronts).flat_map(|(t, front)| candidates(charts, &all[*t], of(*t), front)).collect();
+    charts.prepare(needed.into_iter(), monitor)?;
+    monitor.begin(0.6, 1.0);
+    let mut moved = vec![Placed::default(); open.len()];
+    let place = |k: usize, _: &mut ()| {
+        corrected(charts, soup.corners(open[k]), of(open[k]), &fronts[k], all[open[k]])
     };
-    let triangles = faces.iter().map(|t| mesh.triangles[*t as usize].map(&mut number)).collect();
-    TriangleSoup::new(positions, triangles).expect("meshes of this crate are finite and indexed")
+    fill_in_blocks(&mut moved, place, "texture", monitor)?;
+    open.into_iter().zip(moved).for_each(|(t, placed)| all[t] = placed);
+    Ok(all)
+}
+
+/// A triangle where its corners meet the proxy; what lies across charts or does not lie well is still to be corrected.
+fn met(charts: &Charts, corners: [Vec3; 3], anchors: [Anchor; 3]) -> Placed {
+    let scale = charts.atlas.scale;
+    let of_corners = anchors.map(|anchor| charts.chart(&anchor));
+    let mut placed =
+        Placed { uv: anchors.map(|anchor| charts.uv(&anchor)), chart: of_corners[0], ..Placed::default() };
+    placed.is_across = of_corners != [of_corners[0]; 3];
+    if !placed.is_across {
+        placed.is_folded = placed.is_flat(corners, scale);
+        placed.is_squashed = !placed.is_folded && placed.is_distorted(corners, scale);
+    }
+    if placed.is_across || placed.is_folded || placed.is_squashed {
+        placed.outcome = Outcome::Moved;
+    }
+    placed
+}
+
+/// The points of the proxy in front of some triangles: nearest to their middles, moved along their normals by the offset.
+fn in_front(
+    charts: &Charts,
+    soup: &TriangleSoup,
+    triangles: &[usize],
+    monitor: &dyn Monitor,
+) -> Result<Vec<Anchor>, Cancelled> {
+    let proxy = charts.proxy;
+    let whole = DistanceTree::new(&Shape::Soup(Arc::new(proxy.soup())));
+    let mut fronts = vec![Anchor::default(); triangles.len()];
+    let front = |k: usize, _: &mut ()| {
+        let corners = soup.corners(triangles[k]);
+        let ahead = barycentre(corners) + proxy.offset * area_vector(corners).normalize_or_zero();
+        let nearest = whole.closest(ahead).unwrap_or_default();
+        Anchor { face: nearest.element, barycentric: nearest.barycentric, point: nearest.point }
+    };
+    fill_in_blocks(&mut fronts, front, "texture", monitor)?;
+    Ok(fronts)
+}
+
+/// The charts that a triangle may be put into: those of its corners, if they differ, and the one in front of it.
+fn candidates(
+    charts: &Charts,
+    placed: &Placed,
+    anchors: [Anchor; 3],
+    front: &Anchor,
+) -> impl Iterator<Item = u32> {
+    let of_corners = anchors.map(|anchor| charts.chart(&anchor));
+    let corners = if placed.is_across { 3 } else { 0 };
+    of_corners.into_iter().take(corners).chain([charts.chart(front)])
+}
+
+/// A triangle with the closest points of the chart that keeps its area best, of those where it is not distorted; if there is none, laid
+/// flat.
+fn corrected(
+    charts: &Charts,
+    corners: [Vec3; 3],
+    anchors: [Anchor; 3],
+    front: &Anchor,
+    before: Placed,
+) -> Placed {
+    let scale = charts.atlas.scale;
+    let area = area_vector(corners).length() * scale * scale;
+    let mut best: Option<(f64, Placed)> = None;
+    for chart in candidates(charts, &before, anchors, front) {
+        let uv = anchors.map(|anchor| charts.uv(&charts.closest(chart, &anchor)));
+        let tried = Placed { uv, chart, ..before };
+        let difference = (signed_area(uv) - area).abs();
+        let is_good = !tried.is_flat(corners, scale) && !tried.is_distorted(corners, scale);
+        if is_good && best.is_none_or(|(least, _)| difference < least) {
+            best = Some((difference, tried));
+        }
+    }
+    let unfolded = || Placed {
+        uv: laid(charts, corners, front),
+        chart: charts.chart(front),
+        outcome: Outcome::Unfolded,
+        ..before
+    };
+    best.map_or_else(unfolded, |(_, placed)| placed)
 }

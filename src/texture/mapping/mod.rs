@@ -1,11 +1,17 @@
 //! From the points of a proxy that a soup's corners correspond to, to their texture coordinates.
+mod affected;
+mod charts;
 mod correct;
+mod lay;
+
+pub use affected::Affected;
 
 use super::distortion::distortion;
 use super::{Anchors, Atlas, Distortion, Proxy, SoupLines};
-use crate::data::{Cancelled, Monitor, TriangleSoup, Warning, WarningKind, fill_in_blocks};
+use crate::data::{Cancelled, Monitor, Parts, TriangleSoup, Warning, WarningKind};
 use crate::math::{Vec2, Vec3};
-use correct::{Charts, Outcome, Placed};
+use charts::Charts;
+use correct::all_placed;
 use serde::Serialize;
 
 /// The texture of a soup.
@@ -15,10 +21,11 @@ pub struct Mapping {
     pub uv: Vec<[Vec2; 3]>,
     /// The chart that each triangle is in.
     pub charts: Vec<u32>,
+    pub affected: Affected,
     pub report: MappingReport,
 }
 
-/// What became of the triangles of a soup.
+/// What became of the triangles of a soup: how many there are of each kind of [`Affected`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct MappingReport {
@@ -29,16 +36,19 @@ pub struct MappingReport {
     pub moved: usize,
     /// Triangles that were flipped, or flat, before anything was moved: those within one chart.
     pub folded: usize,
-    /// Triangles, flipped, squashed or torn after moving, that were laid into a chart as they are in space; they may reach beyond it.
+    /// Triangles that were squashed or torn before anything was moved: those within one chart.
+    pub squashed: usize,
+    /// Triangles that would be flipped, squashed or torn even so, and were laid into a chart as they are in space; they may reach beyond
+    /// it, but not beyond the texture.
     pub unfolded: usize,
     /// Triangles that are flipped at last, or flat.
     pub flipped: usize,
-    /// Triangles whose area is more than [`MappingReport::TORN`] times as large or as small as it should be.
+    /// Triangles whose area is more than [`MappingReport::TORN`] times as large or as small as it should be at last.
     pub torn: usize,
     /// Starts whose lines meet no proxy, and those from a boundary that were replaced.
     pub lost_lines: usize,
     pub tangential_lines: usize,
-    /// Triangles in narrow places: the field is weaker than [`MappingReport::WEAK`] of its median at a corner.
+    /// Triangles in narrow places that the lines do not lead out of well: the field is weaker than [`MappingReport::WEAK`] of its median.
     pub weak_field: usize,
     /// Of the soup's texture.
     pub distortion: Distortion,
@@ -64,14 +74,15 @@ impl Mapping {
         atlas: &Atlas,
         monitor: &dyn Monitor,
     ) -> Result<Mapping, Cancelled> {
-        let charts = Charts::new(proxy, atlas, lines, anchors);
-        let mut placed = vec![Placed::default(); soup.len()];
-        let corners = |t: usize| lines.starts.corners[t].map(|s| anchors.of_starts[s as usize]);
-        let place = |t: usize, _: &mut ()| charts.placed(soup.corners(t), corners(t));
-        fill_in_blocks(&mut placed, place, "texture", monitor)?;
-        let report = report(soup, lines, anchors, atlas, &placed);
+        let monitor = &Parts::new(monitor);
+        monitor.begin(0.0, 0.9);
+        let placed = all_placed(&mut Charts::new(proxy, atlas), soup, lines, anchors, monitor)?;
+        monitor.begin(0.9, 1.0);
+        let affected = Affected::new(soup, lines, anchors, atlas.scale, &placed, monitor)?;
+        let distortion = distortion(placed.iter().enumerate().map(|(t, p)| (soup.corners(t), p.uv)));
+        let report = report(anchors, &affected, distortion, soup.len());
         let (uv, charts) = placed.into_iter().map(|p| (p.uv, p.chart)).unzip();
-        Ok(Mapping { uv, charts, report })
+        Ok(Mapping { uv, charts, affected, report })
     }
 }
 
@@ -85,35 +96,19 @@ pub fn transferred(values: &[Vec3], lines: &SoupLines, anchors: &Anchors, proxy:
     lines.starts.corners.iter().map(|corners| corners.map(at)).collect()
 }
 
-fn report(
-    soup: &TriangleSoup,
-    lines: &SoupLines,
-    anchors: &Anchors,
-    atlas: &Atlas,
-    placed: &[Placed],
-) -> MappingReport {
-    let count = |is: &dyn Fn(&Placed) -> bool| placed.iter().filter(|p| is(p)).count();
-    let is_weak = |corners: &&[u32; 3]| {
-        corners
-            .iter()
-            .any(|s| lines.strength[*s as usize] < MappingReport::WEAK && !anchors.is_lost[*s as usize])
-    };
-    let is_torn = |(t, placed): (usize, &Placed)| {
-        let ratio = placed.area_ratio(soup.corners(t), atlas.scale);
-        ratio.is_some_and(|r| !(1.0 / MappingReport::TORN..=MappingReport::TORN).contains(&r))
-    };
-    let distortion = distortion(placed.iter().enumerate().map(|(t, p)| (soup.corners(t), p.uv)));
+fn report(anchors: &Anchors, affected: &Affected, distortion: Distortion, triangles: usize) -> MappingReport {
     let mut found = MappingReport {
-        triangles: soup.len(),
-        across_charts: count(&|p| p.is_across),
-        moved: count(&|p| p.outcome == Outcome::Moved),
-        folded: count(&|p| p.is_folded),
-        unfolded: count(&|p| p.outcome == Outcome::Unfolded),
-        flipped: distortion.flipped + distortion.flat,
-        torn: placed.iter().enumerate().filter(|p| is_torn(*p)).count(),
+        triangles,
+        across_charts: affected.across.len(),
+        moved: affected.moved.len(),
+        folded: affected.folded.len(),
+        squashed: affected.squashed.len(),
+        unfolded: affected.unfolded.len(),
+        flipped: affected.flipped.len(),
+        torn: affected.torn.len(),
         lost_lines: anchors.lost,
-        tangential_lines: anchors.tangential,
-        weak_field: lines.starts.corners.iter().filter(is_weak).count(),
+        tangential_lines: anchors.tangential.len(),
+        weak_field: affected.weak.len(),
         distortion,
         warnings: Vec::new(),
     };
@@ -121,7 +116,7 @@ fn report(
         (WarningKind::LostLines, found.lost_lines),
         (WarningKind::TangentialLines, found.tangential_lines),
         (WarningKind::WeakField, found.weak_field),
-        (WarningKind::BadTexture, found.flipped + found.torn),
+        (WarningKind::BadTexture, affected.bad()),
     ];
     found.warnings = counts.into_iter().filter(|c| c.1 > 0).map(|(k, n)| Warning::new(k, n)).collect();
     found

@@ -37,6 +37,16 @@ pub struct ProxyConfig {
 impl ProxyConfig {
     pub const SHARE: f64 = 0.03;
     pub const MOST_SAMPLES: usize = 400;
+
+    /// # Errors
+    /// If and only if a number is out of its range, whatever the soup.
+    pub fn check(&self) -> Result<(), ProxyError> {
+        match (self.offset, self.samples) {
+            (Some(offset), _) if !(offset.is_finite() && offset > 0.0) => Err(ProxyError::BadOffset(offset)),
+            (_, Some(samples @ (0 | 1))) => Err(ProxyError::TooFewSamples(samples)),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// Why there is no proxy.
@@ -92,17 +102,14 @@ impl Proxy {
         config: &ProxyConfig,
         monitor: &dyn Monitor,
     ) -> Result<Proxy, ProxyError> {
+        config.check()?;
         let longest = longest_side(field)?;
         let offset = config.offset.unwrap_or(ProxyConfig::SHARE * longest);
         if !(offset.is_finite() && offset > 0.0) {
             return Err(ProxyError::BadOffset(offset));
         }
         let needed = (SAMPLES_OF_OFFSET * longest / offset).ceil().max(2.0);
-        let samples = match config.samples {
-            Some(samples @ (0 | 1)) => return Err(ProxyError::TooFewSamples(samples)),
-            Some(samples) => samples,
-            None => needed.min(ProxyConfig::MOST_SAMPLES as f64) as usize,
-        };
+        let samples = config.samples.unwrap_or(needed.min(ProxyConfig::MOST_SAMPLES as f64) as usize);
         // What lies in one place has no size but that of its proxy.
         let spacing = if longest > offset { longest / samples as f64 } else { offset / SAMPLES_OF_OFFSET };
         let traced = trace(field, offset, spacing, config.sides, monitor)?;

@@ -1,7 +1,8 @@
 use super::components::count_outer;
 use super::{ProxyError, ProxySides, SAMPLES_OF_OFFSET, longest_side, trace};
-use crate::data::Monitor;
+use crate::data::{Monitor, Parts};
 use crate::winding::WindingField;
+use std::cell::Cell;
 
 /// Offsets that are tried, in longest sides: smaller ones take more samples than a suggestion is worth.
 const LEAST: f64 = 1.0 / 80.0;
@@ -9,6 +10,8 @@ const LARGEST: f64 = 1.0;
 /// Halvings between them, on a scale of ratios: the last two differ by 4 %.
 const HALVINGS: usize = 7;
 const STEP: f64 = 1.04;
+/// Offsets that are tried in all, unless few samples bridge less than many.
+const TRIALS: f64 = 2.0 + HALVINGS as f64;
 /// Samples for each offset: gaps are told to half of a sample.
 const FINE: f64 = 2.0 * SAMPLES_OF_OFFSET;
 
@@ -26,10 +29,14 @@ pub fn smallest_single_offset(
     if longest == 0.0 {
         return Err(ProxyError::BadOffset(0.0));
     }
-    let quiet = |_: f64, _: &str| monitor.report(0.0, "suggested offset").is_ok();
+    let parts = Parts::new(monitor);
+    let trial = Cell::new(0.0);
+    let heard = |fraction: f64, _: &str| parts.report(fraction, "suggested offset").is_ok();
     let is_one = |offset: f64, samples: f64| -> Result<bool, ProxyError> {
-        let traced = trace(field, offset, offset / samples, sides, &quiet)?;
-        Ok(count_outer(traced, &quiet)? == 1)
+        parts.begin(trial.get() / TRIALS, ((trial.get() + 1.0) / TRIALS).min(1.0));
+        trial.set(trial.get() + 1.0);
+        let traced = trace(field, offset, offset / samples, sides, &heard)?;
+        Ok(count_outer(traced, &heard)? == 1)
     };
     let (mut low, mut high) = (LEAST * longest, LARGEST * longest);
     if is_one(low, SAMPLES_OF_OFFSET)? {
