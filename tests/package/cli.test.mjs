@@ -44,7 +44,7 @@ const files = (under = '.') => readdirSync(join(folder, under)).filter((name) =>
 
 test('help lists every command, and each command’s help its options and examples', () => {
   const { out } = done('--help');
-  const names = ['info', 'check', 'repair', 'orient', 'surface', 'slice', 'voxelize', 'boolean', 'offset', 'hollow', 'distance'];
+  const names = ['info', 'check', 'repair', 'orient', 'surface', 'slice', 'voxelize', 'boolean', 'offset', 'hollow', 'texture', 'distance'];
   assert.deepEqual([...out.split('Commands\n')[1].split('\n\n')[0].matchAll(/^ {2}(\w+)/gm)].map(([, name]) => name), names);
   for (const name of names) {
     const own = done(`${name} --help`).out;
@@ -83,6 +83,9 @@ test('wrong use is said, and nothing is done', () => {
     'repair box.obj block.stl -o box.obj': /is a file: many results need a folder/,
     'check box.obj --json -o -': /both --json and the result/,
     'check - -': /only once/,
+    'texture box.obj -o - --format obj': /beside obj there is mtl and png/,
+    'texture box.obj --image wood.gif -o out.glb': /a \.png or \.jpg file is needed/,
+    'texture box.obj --offset 1 --one-piece': /one of --offset and --one-piece/,
     'check box.obj --jobs 0': /--jobs is 0/,
     'repair box.obj ./box.obj -o out': /would both be written to out/,
   };
@@ -180,6 +183,40 @@ test('meshes made anew lie where the shape is', () => {
     assert.ok(Math.abs(made.check({ resolution: 0, selfIntersections: false }).volume - volume(mesh)) < 1e-2, words);
     assert.ok(made.bounds.min.every((x) => Math.abs(x - 1e5) < 1.5));
   }
+});
+
+/** What a GLB file holds: its description, and the part of its binary that is a view of it. */
+function glb(bytes) {
+  const length = bytes.readUInt32LE(12);
+  assert.deepEqual([bytes.toString('latin1', 0, 4), bytes.readUInt32LE(8), length % 4], ['glTF', bytes.length, 0]);
+  const description = JSON.parse(bytes.toString('utf8', 20, 20 + length));
+  const view = (k) => {
+    const { byteOffset, byteLength } = description.bufferViews[k];
+    return Uint8Array.from(bytes.subarray(28 + length + byteOffset)).slice(0, byteLength);
+  };
+  return { description, view };
+}
+
+test('textures are written with their picture', () => {
+  const options = { offset: 1, resolution: 24, steps: 40 };
+  const words = 'texture --offset 1 --resolution 24 --steps 40 block.stl -o textured/block';
+  const texture = JSON.parse(done(`${words}.obj --json`).out);
+  const made = open('block.stl').texture(options);
+  assert.deepEqual(texture.mapping, made.report.mapping);
+  const { obj, mtl } = made.export('obj', { name: 'block' });
+  assert.deepEqual([new Uint8Array(read('textured/block.obj')), new Uint8Array(read('textured/block.mtl'))], [obj, mtl]);
+  assert.deepEqual(texture.written, ['mtl', 'png', 'obj'].map((ending) => `textured/block.${ending}`));
+  assert.match(cli(`${words}.obj`).err, /EEXIST: textured\/block\.obj exists/);
+  assert.equal(spawnSync('rm', ['textured/block.obj'], { cwd: folder }).status, 0);
+  assert.match(cli(`${words}.obj`).err, /EEXIST: textured\/block\.mtl exists/);
+  done(`${words}.glb --image textured/block.png`);
+  const { description, view } = glb(read('textured/block.glb'));
+  assert.deepEqual([Buffer.from(view(3)).equals(read('textured/block.png')), description.images[0].mimeType], [true, 'image/png']);
+  const { uvs } = made.geometry();
+  assert.deepEqual(new Float32Array(view(2).buffer), uvs.map((value, k) => (k % 2 ? 1 - value : value)));
+  const { min, max, count } = description.accessors[0];
+  assert.deepEqual([count, min, max], [36, [-5, -5, -5], [5, 5, 5]]);
+  assert.deepEqual(description.nodes[0].translation, [0.005, 0.005, -0.005], 'y is up');
 });
 
 test('distances, at points and over a lattice', () => {
