@@ -29,7 +29,7 @@ const withManifold = { text: `const { Manifold, Mesh } = await (await import(${J
 
 /** What more is to be true at the end of a page. */
 const FACTS = {
-  'README.md': 'assert.deepEqual([verdict.rating, scene.children.length, texture.report.mapping.triangles], ["clean", 3, 12]);',
+  'README.md': 'assert.deepEqual([inside, layers.length, verdict.rating, soup.count], [new Uint8Array([1, 0]), 50, "clean", 12]);',
   'pkg-config/README.md': `
     assert.deepEqual([inside, numbers.map(Math.round)], [new Uint8Array([1, 0]), new Float64Array([1])]);
     assert.deepEqual([voxels.counts, mesh.indices.length > 0], [[64, 64, 64], true]);
