@@ -75,3 +75,9 @@ test('nothing but the package’s own files is packed', () => {
   assert.ok(files.includes('LICENSE-MIT') && files.includes('LICENSE-APACHE') && files.includes('README.md'));
   assert.deepEqual(files.filter((name) => !/\.(js|d\.ts|wasm)$|^(LICENSE-.*|README\.md|package\.json)$/.test(name)), []);
 });
+
+test('it depends on nothing, and editors are told units and shapes', () => {
+  const { dependencies, bundledDependencies } = JSON.parse(readFileSync(join(home, 'package.json'), 'utf8'));
+  assert.deepEqual([dependencies, bundledDependencies], [undefined, undefined]);
+  assert.match(readFileSync(join(home, 'dist', 'api.d.ts'), 'utf8'), /\/\*\* xyzxyz… in millimetres, relative to `origin`\. \*\/\n\s*positions: Float32Array;/);
+});
