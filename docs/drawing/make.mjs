@@ -9,7 +9,7 @@ const folder = new URL('../pictures/', import.meta.url);
 const PICTURES = {
   'winding.svg': planes.winding, 'distances.svg': planes.distances, 'offsets.svg': planes.offsets, 'prints.svg': planes.prints,
   'clouds.png': solids.clouds, 'voxels.png': solids.voxels, 'surfaces.png': solids.surfaces, 'repairs.png': solids.repairs,
-  'orientation.png': solids.orientation, 'booleans.png': solids.booleans, 'textures.png': solids.textures,
+  'orientation.png': solids.orientation, 'booleans.png': solids.booleans, 'textures.png': solids.textures, 'interop.png': solids.interop,
   'crossings.svg': engine.crossings, 'hierarchy.svg': engine.hierarchy, 'expansion.svg': engine.expansion, 'threads.svg': engine.threads,
   'parts.svg': engine.parts,
 };

@@ -1,5 +1,7 @@
 // Pictures of solids: clouds, voxels, surfaces, repairs, turned faces, booleans, textures.
 import { readFileSync } from 'node:fs';
+import { contourGeometry, soupArrays } from '../../pkg/dist/three/index.js';
+import { BufferAttribute, BufferGeometry, TorusKnotGeometry } from '../../www/node_modules/three/build/three.module.js';
 import { ball, box, lots, open, placed, together } from './models.mjs';
 import { COLOURS, Picture, ballAround, mix } from './raster.mjs';
 
@@ -107,6 +109,23 @@ export function booleans(fw) {
     const look = picture.view({ left: k / 3, right: (k + 1) / 3, ball: round, azimuth: -50, elevation: 28, zoom: 1.15 });
     picture.mesh(look, placed(soup.geometry()), (t) => (operands[t] === 0 ? COLOURS.grey : COLOURS.orange));
   });
+  return picture.png();
+}
+
+/** A mesh of three.js, the contours of its layers, and points in it. */
+export function interop(fw) {
+  const { positions, indices } = soupArrays(new TorusKnotGeometry(10, 3, 200, 24));
+  const soup = fw.Soup.from({ positions, indices });
+  const lines = contourGeometry({ BufferAttribute, BufferGeometry }, soup.slice({ layerHeight: 0.8 }));
+  const places = Array.from(lines.getIndex().array, (k) => pointAt(lines.getAttribute('position').array, k));
+  const pick = lots(3);
+  const points = Float64Array.from({ length: 60_000 }, () => 34 * (pick() - 0.5));
+  const inside = soup.contains(points);
+  const picture = new Picture(740, 260);
+  const looks = [0, 1, 2].map((k) => picture.view({ left: k / 3, right: (k + 1) / 3, ball: ballAround(positions), azimuth: -70, elevation: 55, zoom: 1.15 }));
+  picture.mesh(looks[0], { positions, indices }, even(COLOURS.grey));
+  for (let k = 0; k < places.length; k += 2) picture.line(looks[1], places.slice(k, k + 2), 0.35, COLOURS.blue);
+  inside.forEach((is, k) => is && picture.dot(looks[2], pointAt(points, k), 1, COLOURS.orange));
   return picture.png();
 }
 

@@ -1,7 +1,7 @@
 // Every snippet in JavaScript and every command of the documents, with the packed package: the READMEs and docs/. Those in Rust are doc tests.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync, readdirSync, symlinkSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { delimiter, join } from 'node:path';
 import { test } from 'node:test';
 import { promisify } from 'node:util';
@@ -80,7 +80,7 @@ test('every command of the documents runs', async () => {
   assert.equal(fw.open(readFileSync(join(folder, 'fixed', 'one.stl'))).prepare().boundaryEdges, 0);
 });
 
-test('links between documents lead somewhere', () => {
+test('links between documents lead somewhere, and pictures are small', () => {
   const all = [...pages, 'CONTRIBUTING.md', 'examples/README.md'];
   const anchors = (text) => new Set([...text.matchAll(/^#+ (.*)$/gm)].map(([, title]) => title.toLowerCase().replace(/[^\w -]/g, '').replaceAll(' ', '-')));
   for (const page of all) {
@@ -89,6 +89,7 @@ test('links between documents lead somewhere', () => {
       const [path, anchor] = to.split('#');
       const target = path ? join(root, page, '..', path) : join(root, page);
       assert.ok(existsSync(target), `${page}: ${to}`);
+      if (to.includes('pictures/')) assert.ok(statSync(target).size < 100 * 1024, `${to} is too large`);
       if (anchor) assert.ok(anchors(readFileSync(target, 'utf8')).has(anchor), `${page}: ${to}`);
     }
   }
