@@ -1,32 +1,12 @@
-// Makes the API references of the crate and of the package in target/, without warnings: rustdoc's and TypeDoc's.
-import { existsSync, mkdirSync } from 'node:fs';
-import { join } from 'node:path';
-import { npmInstall } from './tools/npm.mjs';
-import { cache, root, source } from './tools/paths.mjs';
-import { program, run, say } from './tools/run.mjs';
+// Makes the API references of the crate and of the package, and says where they are.
+import { assemble } from './tools/assemble.mjs';
+import { references } from './tools/reference.mjs';
+import { program } from './tools/run.mjs';
 import { requireCargo } from './tools/rust.mjs';
-
-/** TypeDoc reads TypeScript by way of the compiler's own library, which TypeScript 7 no longer has: it gets the last that does. */
-const TOOLS = ['typedoc@0.28.20', 'typescript@6.0'];
-
-/** Path of the program, installed if need be. */
-async function typedoc() {
-  const folder = join(cache, 'tools', TOOLS.join('-'));
-  const path = join(folder, 'node_modules', 'typedoc', 'bin', 'typedoc');
-  if (!existsSync(path)) {
-    say(`installing ${TOOLS.join(', ')}`);
-    mkdirSync(folder, { recursive: true });
-    await run('npm', ['install', '--prefix', folder, '--ignore-scripts', '--no-audit', '--no-fund', ...TOOLS], { cwd: folder, quiet: true });
-  }
-  return path;
-}
 
 await program(async () => {
   requireCargo();
-  await npmInstall();
-  say('reference of the crate');
-  await run('cargo', ['doc', '--no-deps'], { cwd: root, env: { RUSTDOCFLAGS: '-D warnings' }, quiet: true });
-  say('reference of the package');
-  await run('node', [await typedoc(), '--options', join(source, 'typedoc.json'), '--out', join(root, 'target', 'typedoc')], { cwd: source, quiet: true });
-  console.log('  target/doc/fast_winding/index.html\n  target/typedoc/index.html');
+  await assemble();
+  await references();
+  console.log('target/doc/fast_winding/index.html\ntarget/typedoc/index.html');
 });
