@@ -21,7 +21,7 @@ export function crossings() {
     circle(other, 6, { stroke: ACCENTS.green, width: 2 }), circle(cap, 6, { stroke: ACCENTS.green, width: 2 }),
     text([cx - 60, cy - radius - 12], 'the soup M', { anchor: 'middle' }),
     text([first[0] + 14, first[1] - 12], 'the closure C', { colour: ACCENTS.orange }),
-    text([inside[0] - 150, inside[1] + 22], 'q: one crossing, N = 1', { colour: ACCENTS.blue }),
+    text([inside[0] - 128, inside[1] + 22], 'q: one crossing, N = 1', { colour: ACCENTS.blue }),
     text([beyond[0] + 12, beyond[1] + 5], 'q: in by the cap,\nout by the soup, N = 0', { colour: ACCENTS.green }),
     text([480, 270], 'w(q) = N(q) − w_C(q)', { size: 18 }),
     text([480, 294], 'an integer, less a few small triangles', { colour: ACCENTS.grey }),
@@ -81,7 +81,8 @@ export function expansion(fw) {
   const ratios = Array.from({ length: 24 }, (_, k) => 1.5 * (8 / 1.5) ** (k / 23));
   const ring = Array.from({ length: 60 }, (_, k) => [Math.PI * ((k + 0.5) / 60), 2.4 * k]);
   const errors = (order) => ratios.map((ratio) => {
-    const points = Float64Array.from(ring.flatMap(([polar, around]) => [Math.sin(polar) * Math.cos(around), Math.sin(polar) * Math.sin(around), Math.cos(polar)].map((x, k) => middle[k] + ratio * radius * x)));
+    const onSphere = ([polar, around]) => [Math.sin(polar) * Math.cos(around), Math.sin(polar) * Math.sin(around), Math.cos(polar)];
+    const points = Float64Array.from(ring.flatMap((place) => onSphere(place).map((x, k) => middle[k] + ratio * radius * x)));
     const exact = exactAt(points);
     const found = patch.windingNumbers(points, { order, beta: 1 });
     return Math.sqrt(found.reduce((sum, w, k) => sum + (w - exact[k]) ** 2, 0) / found.length);
@@ -93,7 +94,9 @@ export function expansion(fw) {
   return page(620, 340, [
     ...[1, 2, 3, 4, 5, 6, 7, 8].map((k) => path([[left, up(10 ** -k)], [right, up(10 ** -k)]], { stroke: ACCENTS.pale, width: 1 })),
     ...[1, 3, 5, 7].map((k) => text([left - 8, up(10 ** -k) + 4], `1e-${k}`, { anchor: 'end', size: 12 })),
-    ...[1.5, 2, 3, 4, 6, 8].flatMap((r) => [text([across(r), bottom + 18], String(r), { anchor: 'middle', size: 12 }), path([[across(r), bottom], [across(r), bottom + 4]], { width: 1 })]),
+    ...[1.5, 2, 3, 4, 6, 8].flatMap((r) => [
+      text([across(r), bottom + 18], String(r), { anchor: 'middle', size: 12 }), path([[across(r), bottom], [across(r), bottom + 4]], { width: 1 }),
+    ]),
     path([[left, top], [left, bottom], [right, bottom]], { width: 1.2 }),
     ...lines.flatMap(({ order, found, colour }) => [
       path(ratios.map((ratio, k) => [across(ratio), Math.min(bottom, up(Math.max(1e-9, found[k])))]), { stroke: colour, width: 2.2 }),
@@ -127,9 +130,16 @@ export function threads() {
 
 /** The two files of WebAssembly. */
 export function parts() {
+  const first = [
+    'loaded by init()', '', 'STL, OBJ, PLY, OFF, XYZ', 'winding numbers, inside tests, voxels,', 'heat maps', '', 'a stub for each function that is elsewhere',
+  ];
+  const second = [
+    'loaded when first asked for', '', 'slices, surfaces, checks, repairs, booleans,', 'distances, normals, prints, textures, 3MF', '',
+    'imports memory, table and globals of the first',
+  ];
   return page(760, 270, [
-    labelled(20, 40, 300, 190, 'fast_winding_bg.wasm', 'loaded by init()\n\nSTL, OBJ, PLY, OFF, XYZ\nwinding numbers, inside tests, voxels,\nheat maps\n\na stub for each function that is elsewhere', ACCENTS.blue, '#f3f6fb'),
-    labelled(440, 40, 300, 190, 'fast_winding_more.wasm', 'loaded when first asked for\n\nslices, surfaces, checks, repairs, booleans,\ndistances, normals, prints, textures, 3MF\n\nimports memory, table and globals of the first', ACCENTS.orange, '#fdf4ea'),
+    labelled(20, 40, 300, 190, 'fast_winding_bg.wasm', first.join('\n'), ACCENTS.blue, '#f3f6fb'),
+    labelled(440, 40, 300, 190, 'fast_winding_more.wasm', second.join('\n'), ACCENTS.orange, '#fdf4ea'),
     arrow([320, 110], [440, 110]), text([380, 100], 'call by table', { anchor: 'middle', size: 12 }),
     arrow([440, 170], [320, 170]), text([380, 190], 'places its functions', { anchor: 'middle', size: 12 }),
   ]);

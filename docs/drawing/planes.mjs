@@ -6,14 +6,25 @@ import { ACCENTS, INK, field, page, path, rings, text } from './svg.mjs';
 const pointsOf = (ring, toPage) => Array.from({ length: ring.length / 2 }, (_, k) => toPage([ring[2 * k], ring[2 * k + 1]]));
 const ringsOf = ({ polygons }, toPage) => polygons.flatMap(({ outer, holes }) => [outer, ...holes]).map((ring) => pointsOf(ring, toPage));
 
+/** The middles of square cells of a plane, x fastest. */
+function cellsOf(origin, spacing, [columns, rows], z) {
+  const points = new Float64Array(3 * columns * rows);
+  for (let k = 0; k < columns * rows; k++) {
+    points.set([origin[0] + ((k % columns) + 0.5) * spacing, origin[1] + (Math.floor(k / columns) + 0.5) * spacing, z], 3 * k);
+  }
+  return points;
+}
+
+/** A colour between two, as #rrggbb. */
+const between = (one, other, share) => `#${one.map((x, c) => Math.round(x + (other[c] - x) * share).toString(16).padStart(2, '0')).join('')}`;
+
 /** One of the colours from white over blue to orange, by w in tenths. */
 function windingColour(w) {
   const stops = [[-1, [120, 90, 160]], [0, [255, 255, 255]], [0.5, [170, 200, 232]], [1, [74, 122, 188]], [2, [226, 120, 40]]];
   const tenth = Math.min(2, Math.max(-1, Math.round(12 * w) / 12));
   const k = Math.min(stops.length - 2, stops.findLastIndex(([at]) => at <= tenth));
   const [[from, one], [to, other]] = [stops[k], stops[k + 1]];
-  const share = (tenth - from) / (to - from);
-  return `#${one.map((x, c) => Math.round(x + (other[c] - x) * share).toString(16).padStart(2, '0')).join('')}`;
+  return between(one, other, (tenth - from) / (to - from));
 }
 
 /** Two balls that overlap, one without a cap. */
@@ -24,9 +35,7 @@ export function winding(fw) {
   const spacing = 36 / cells;
   const counts = [cells, Math.round((cells * height) / width)];
   const origin = [-15, (-spacing * counts[1]) / 2];
-  const points = new Float64Array(3 * counts[0] * counts[1]);
-  for (let j = 0; j < counts[1]; j++) for (let i = 0; i < counts[0]; i++) points.set([origin[0] + (i + 0.5) * spacing, origin[1] + (j + 0.5) * spacing, 0.01], 3 * (j * counts[0] + i));
-  const values = soup.windingNumbers(points, { tolerance: 0 });
+  const values = soup.windingNumbers(cellsOf(origin, spacing, counts, 0.01), { tolerance: 0 });
   const cell = width / counts[0];
   const toPage = ([x, y]) => [((x - origin[0]) / spacing) * cell, height - ((y - origin[1]) / spacing) * cell];
   const [layer] = soup.slice({ heights: [0.01] });
@@ -44,8 +53,7 @@ function distanceColour(d) {
   const band = Math.floor(Math.abs(d) / 2) % 2;
   const near = Math.max(0, 1 - Math.abs(d) / 45);
   const [base, strong] = d < 0 ? [[222, 232, 244], [74, 122, 188]] : [[252, 246, 238], [226, 140, 60]];
-  const share = 0.15 + (Math.round(12 * near) / 12) * (band ? 0.55 : 0.75);
-  return `#${base.map((x, c) => Math.round(x + (strong[c] - x) * share).toString(16).padStart(2, '0')).join('')}`;
+  return between(base, strong, 0.15 + (Math.round(12 * near) / 12) * (band ? 0.55 : 0.75));
 }
 
 export function distances(fw) {
@@ -55,10 +63,8 @@ export function distances(fw) {
   const spacing = (max[0] - min[0] + 2 * padding) / cells;
   const counts = [cells, Math.ceil((max[1] - min[1] + 2 * padding) / spacing)];
   const z = min[2] + 0.35 * (max[2] - min[2]);
-  const points = new Float64Array(3 * counts[0] * counts[1]);
   const origin = [min[0] - padding, min[1] - padding];
-  for (let j = 0; j < counts[1]; j++) for (let i = 0; i < counts[0]; i++) points.set([origin[0] + (i + 0.5) * spacing, origin[1] + (j + 0.5) * spacing, z], 3 * (j * counts[0] + i));
-  const values = bunny.signedDistance(points);
+  const values = bunny.signedDistance(cellsOf(origin, spacing, counts, z));
   const cell = width / cells;
   const height = Math.round(counts[1] * cell);
   const toPage = ([x, y]) => [((x - origin[0]) / spacing) * cell, height - ((y - origin[1]) / spacing) * cell];
@@ -93,7 +99,8 @@ export function offsets(fw) {
 }
 
 const LINES = {
-  outerWall: '#d9741f', innerWall: '#e9a64e', thinWall: '#c73e3e', gap: '#c73e3e', overhang: '#8d4bb0', bottom: '#4c9257', top: '#4c9257', solid: '#4c9257', bridge: '#8d4bb0', infill: '#3f6fb0',
+  outerWall: '#d9741f', innerWall: '#e9a64e', thinWall: '#c73e3e', gap: '#c73e3e', overhang: '#8d4bb0',
+  bottom: '#4c9257', top: '#4c9257', solid: '#4c9257', bridge: '#8d4bb0', infill: '#3f6fb0',
 };
 
 export function prints(fw) {

@@ -152,7 +152,11 @@ export function textures(fw) {
     picture.line(first, points, 0.4, COLOURS.orange);
   }
   picture.mesh(second, soup, textured(soup));
-  const flat = { positions: Float64Array.from({ length: 3 * (proxy.uvs.length / 2) }, (_, k) => (k % 3 === 2 ? 0 : proxy.uvs[2 * Math.floor(k / 3) + (k % 3)])), indices: Uint32Array.from({ length: proxy.uvs.length / 2 }, (_, k) => k) };
+  const corners = proxy.uvs.length / 2;
+  const flat = {
+    positions: Float64Array.from({ length: 3 * corners }, (_, k) => (k % 3 === 2 ? 0 : proxy.uvs[2 * Math.floor(k / 3) + (k % 3)])),
+    indices: Uint32Array.from({ length: corners }, (_, k) => k),
+  };
   const above = picture.view({ left: 0.68, right: 1, ball: { middle: [0.5, 0.5, 0], radius: 0.54 }, azimuth: -90, elevation: 90 });
   picture.mesh(above, flat, textured(proxy));
   return picture.png();

@@ -1,6 +1,7 @@
 // Drawings as SVG: a white page, shapes and words on it.
 
 const round = (x) => String(Math.round(10 * x) / 10);
+const dashes = (dash) => (dash ? ` stroke-dasharray="${dash}"` : '');
 const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 
 export const INK = '#333b44';
@@ -8,7 +9,8 @@ export const ACCENTS = { blue: '#3f6fb0', orange: '#d9741f', green: '#4c9257', r
 
 export function page(width, height, parts) {
   return [
-    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" font-family="sans-serif" font-size="13" fill="none" stroke-linejoin="round">`,
+    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}"`,
+    'font-family="sans-serif" font-size="13" fill="none" stroke-linejoin="round">',
     `<rect width="${width}" height="${height}" rx="6" fill="#fff"/>`,
     ...parts,
     '</svg>\n',
@@ -22,18 +24,19 @@ export function path(points, style, isClosed = false) {
 
 export function rings(all, { fill = 'none', stroke = INK, width = 1.5, dash }, isClosed = true) {
   const d = all.map((points) => points.map((p, k) => `${k ? 'L' : 'M'}${p.map(round).join(' ')}`).join('') + (isClosed ? 'Z' : '')).join('');
-  return `<path d="${d}" fill="${fill}" fill-rule="evenodd" stroke="${stroke}" stroke-width="${width}"${dash ? ` stroke-dasharray="${dash}"` : ''}/>`;
+  return `<path d="${d}" fill="${fill}" fill-rule="evenodd" stroke="${stroke}" stroke-width="${width}"${dashes(dash)}/>`;
 }
 
-export const circle = ([x, y], radius, { fill = 'none', stroke = 'none', width = 1.5, dash } = {}) =>
-  `<circle cx="${round(x)}" cy="${round(y)}" r="${round(radius)}" fill="${fill}" stroke="${stroke}" stroke-width="${width}"${dash ? ` stroke-dasharray="${dash}"` : ''}/>`;
+export const circle = ([x, y], radius, { fill = 'none', stroke = 'none', width = 1.5 } = {}) =>
+  `<circle cx="${round(x)}" cy="${round(y)}" r="${round(radius)}" fill="${fill}" stroke="${stroke}" stroke-width="${width}"/>`;
 
-export const box = (x, y, width, height, { fill = 'none', stroke = INK, radius = 4, dash } = {}) =>
-  `<rect x="${x}" y="${y}" width="${width}" height="${height}" rx="${radius}" fill="${fill}" stroke="${stroke}" stroke-width="1.2"${dash ? ` stroke-dasharray="${dash}"` : ''}/>`;
+export const box = (x, y, width, height, { fill = 'none', stroke = INK } = {}) =>
+  `<rect x="${round(x)}" y="${round(y)}" width="${round(width)}" height="${round(height)}" rx="4" fill="${fill}" stroke="${stroke}" stroke-width="1.2"/>`;
 
 /** Words; several lines below each other. */
 export function text([x, y], words, { size = 13, anchor = 'start', colour = INK, weight = 'normal', lead = 1.35 } = {}) {
-  return words.split('\n').map((line, k) => `<text x="${round(x)}" y="${round(y + k * lead * size)}" font-size="${size}" text-anchor="${anchor}" fill="${colour}" font-weight="${weight}">${escaped(line)}</text>`).join('\n');
+  const style = `font-size="${size}" text-anchor="${anchor}" fill="${colour}" font-weight="${weight}"`;
+  return words.split('\n').map((line, k) => `<text x="${round(x)}" y="${round(y + k * lead * size)}" ${style}>${escaped(line)}</text>`).join('\n');
 }
 
 /** A line with a head at its end. */

@@ -42,6 +42,7 @@ export function png(width: number, height: number, pixels: Uint8Array, palette?:
   header.writeUInt32BE(width);
   header.writeUInt32BE(height, 4);
   header.set([8, palette ? 3 : 2], 8);
-  const chunks = [chunk('IHDR', header), ...(palette ? [chunk('PLTE', Uint8Array.from(palette))] : []), chunk('IDAT', deflateSync(rows, { level: 9 })), chunk('IEND', new Uint8Array())];
+  const colours = palette ? [chunk('PLTE', Uint8Array.from(palette))] : [];
+  const chunks = [chunk('IHDR', header), ...colours, chunk('IDAT', deflateSync(rows, { level: 9 })), chunk('IEND', new Uint8Array())];
   return Buffer.concat([Uint8Array.from(SIGNATURE), ...chunks]);
 }
