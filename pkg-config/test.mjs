@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import { assemble, requireBudgets } from './tools/assemble.mjs';
 import { browser } from './tools/browser.mjs';
 import { npmInstall } from './tools/npm.mjs';
+import { references } from './tools/reference.mjs';
 import { root, www } from './tools/paths.mjs';
 import { program, run, say } from './tools/run.mjs';
 import { bindgenTools, requireCargo } from './tools/rust.mjs';
@@ -46,6 +47,7 @@ await program(async () => {
   await step('clippy', () => cargo('clippy', '--all-targets', '--', '-D', 'warnings'));
   await step('native tests and doc tests', () => cargo('test', '--no-fail-fast'));
   await step('npm package', () => assemble().then(() => requireBudgets()));
+  await step('API references without warnings', references);
   const found = await browser();
   await step('WebAssembly tests in headless Chromium, two threads', () => wasmTests(found));
   await step('package tests', async () => {

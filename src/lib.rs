@@ -41,3 +41,18 @@ pub use winding::WindingField;
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The examples of the documents.
+#[cfg(doctest)]
+mod documents {
+    #[doc = include_str!("../docs/winding-numbers.md")]
+    struct WindingNumbers;
+    #[doc = include_str!("../docs/voxels.md")]
+    struct Voxels;
+    #[doc = include_str!("../docs/distances.md")]
+    struct Distances;
+    #[doc = include_str!("../docs/surfaces.md")]
+    struct Surfaces;
+    #[doc = include_str!("../docs/booleans.md")]
+    struct Booleans;
+}

@@ -32,9 +32,11 @@ export interface InitOptions {
 export interface Info {
   /** Threads that compute: 0 when the single-threaded build runs. */
   readonly threads: number;
+  /** Always true: without SIMD the engine does not start. */
   readonly simd: boolean;
   /** Why this build runs, in words. */
   readonly reason: string;
+  /** Of the package. */
   readonly version: string;
   /** Bytes of sources kept in JavaScript, from which a single-threaded engine is rebuilt after an abort. */
   readonly memory: number;
@@ -48,6 +50,7 @@ export interface CallOptions {
   onProgress?: (fraction: number, stage: string) => void;
 }
 
+/** How a file is read, and what becomes of its bytes. */
 export interface ReadOptions {
   /** Unit of files that do not state theirs (STL, OBJ, PLY, XYZ, OFF). Everything becomes millimetres. */
   unit?: 'micron' | 'millimeter' | 'centimeter' | 'inch' | 'foot' | 'meter';
@@ -69,7 +72,9 @@ export interface Warning {
 
 /** An axis-aligned box, in millimetres. */
 export interface Bounds {
+  /** x, y and z. */
   min: [number, number, number];
+  /** x, y and z. */
   max: [number, number, number];
 }
 
@@ -95,11 +100,13 @@ export interface Polygon {
 
 /** One slice: the polygons of {w ≥ 1/2} at `zSample`. Heights in millimetres. */
 export interface Layer {
+  /** Where the layer begins. */
   zBottom: number;
   /** Where a printer's nozzle lays this layer. */
   zTop: number;
   /** Where the field was asked. */
   zSample: number;
+  /** None where the plane meets nothing that is inside. */
   polygons: Polygon[];
 }
 
@@ -119,10 +126,13 @@ export interface VoxelOptions extends VoxelMethodOptions, CallOptions {
   surface?: boolean;
 }
 
+/** Which cells of a lattice are inside. */
 export interface Voxels {
+  /** Cells along x, y and z. */
   counts: [number, number, number];
   /** Centre of the first voxel. */
   origin: [number, number, number];
+  /** Edges of a voxel along x, y and z, in millimetres. */
   spacing: [number, number, number];
   /** x fastest. */
   inside: Uint8Array;
@@ -130,6 +140,7 @@ export interface Voxels {
   count: number;
   /** Cubic millimetres inside. */
   volume: number;
+  /** The faces between inside and outside, if they were asked for. */
   surface?: Mesh;
 }
 
@@ -184,7 +195,9 @@ export interface HeatMap {
   counts: [number, number];
   /** The first sample. */
   origin: [number, number];
+  /** Millimetres from sample to sample along x and y. */
   spacing: [number, number];
+  /** Millimetres. */
   z: number;
   /** x fastest. */
   values: Float64Array;
@@ -202,7 +215,9 @@ export interface Accuracy {
 
 /** What a built tree is. */
 export interface Prepared {
+  /** How long it took. */
   milliseconds: number;
+  /** Memory that it takes beside the shape. */
   bytes: number;
   /** How winding numbers are computed, in words. */
   method: string;
@@ -214,20 +229,26 @@ export interface Prepared {
   caps: number;
 }
 
+/** Formats of triangles that are written. */
 export type SoupFormat = 'stl' | 'obj' | 'ply' | 'off' | '3mf';
+/** Formats of points that are written. */
 export type CloudFormat = 'ply' | 'xyz';
 
 /** What a soup and a cloud have in common: a winding field, and questions to it. */
 export interface Shape extends VoxelShape, Distances {
+  /** Triangles or points. */
   readonly kind: 'soup' | 'cloud';
   /** The file's format, `arrays`, or `field` if it was saved. */
   readonly format: string;
+  /** What was put right or left out when it was read. */
   readonly warnings: Warning[];
+  /** The smallest box around it. */
   readonly bounds: Bounds;
   /** Number of triangles or points. */
   readonly count: number;
   /** Gives its memory back at once; later calls fail with `Freed`. */
   free(): void;
+  /** As `free`, for `using`. */
   [Symbol.dispose](): void;
   /**
    * Builds the tree ahead of time. `bounded`, for clouds, for this and all later calls: no point adds more than ½ to the winding
@@ -238,12 +259,15 @@ export interface Shape extends VoxelShape, Distances {
   windingNumbers(points: Float32Array | Float64Array, options?: Accuracy & CallOptions): Promise<Float64Array>;
   /** 1 for each of `points` (xyzxyz…) that is inside, else 0. */
   contains(points: Float32Array | Float64Array, options?: CallOptions): Promise<Uint8Array>;
+  /** Which cells of a lattice are inside. */
   voxelize(options?: VoxelOptions): Promise<Voxels>;
+  /** Contours of layers, from the lowest up. */
   slice(options?: SliceOptions): Promise<Layer[]>;
   /** The same layers one after the other, from the first: only some are in memory at a time. */
   layers(options?: SliceOptions): AsyncIterable<Layer>;
   /** The surface where w = 1/2, closed unless it is trimmed. */
   surface(options?: SurfaceOptions): Promise<Mesh>;
+  /** w over the plane at `z` millimetres, `resolution` samples along the longer side. */
   heatMap(options: { z: number; resolution?: number } & CallOptions): Promise<HeatMap>;
   /**
    * The solids of this shape and another combined: each trimmed along the other's surface, exactly, and where that is missing along the
@@ -296,7 +320,9 @@ export interface OrientOptions extends CallOptions {
 /** Points, perhaps with normals and areas. */
 export interface Cloud extends Shape {
   readonly kind: 'cloud';
+  /** Whether each point has a normal, given or found. */
   readonly hasNormals: boolean;
+  /** Whether each point has an area, given or estimated. */
   readonly hasAreas: boolean;
   /** Gives points without normals outward ones, and areas. */
   orient(options?: OrientOptions): Promise<void>;
@@ -313,8 +339,10 @@ export interface Cloud extends Shape {
   }>;
 }
 
+/** The content of a file. */
 export type Bytes = Uint8Array | ArrayBuffer;
 
+/** Triangles as arrays. */
 export interface SoupArrays {
   /** xyzxyz… in millimetres. */
   positions: Float32Array | Float64Array;
@@ -322,6 +350,7 @@ export interface SoupArrays {
   indices?: Uint32Array;
 }
 
+/** Points as arrays. */
 export interface CloudArrays {
   /** xyzxyz… in millimetres. */
   points: Float32Array | Float64Array;
@@ -333,16 +362,19 @@ export interface CloudArrays {
 
 /** An engine: it opens files and arrays. */
 export interface FastWinding extends VoxelFunctions {
+  /** What runs, and why. */
   readonly info: Info;
   /** Reads a file of any known format: STL, OBJ, PLY, XYZ, OFF, 3MF, and what `save` gives. */
   open(bytes: Bytes, options?: ReadOptions & CallOptions): Promise<Soup | Cloud>;
   /** Reads what `save` gives, and nothing else. */
   load(bytes: Bytes, options?: { transfer?: boolean } & CallOptions): Promise<Soup | Cloud>;
+  /** Makes soups. */
   readonly Soup: {
     /** Reads a file that must hold triangles. */
     parse(bytes: Bytes, options?: ReadOptions & CallOptions): Promise<Soup>;
     from(data: SoupArrays, options?: { transfer?: boolean }): Promise<Soup>;
   };
+  /** Makes clouds. */
   readonly Cloud: {
     /** Reads a file that must hold points. */
     parse(bytes: Bytes, options?: ReadOptions & CallOptions): Promise<Cloud>;
@@ -374,5 +406,6 @@ export interface FastWinding extends VoxelFunctions {
   }): Promise<{ settings: Required<ToolpathSettings>; profile: RequiredProfile }>;
   /** Ends the engine: its worker, its threads, its shapes. */
   dispose(): void;
+  /** As `dispose`, for `using`. */
   [Symbol.dispose](): void;
 }

@@ -1,6 +1,7 @@
 // Booleans, as the package's callers see them.
 import type { CallOptions, Soup, Warning } from './api.js';
 
+/** What is kept of two shapes: all, what is in both, or what is in the first alone. */
 export type BooleanOperation = 'union' | 'intersection' | 'difference';
 
 export interface BooleanOptions extends CallOptions {

@@ -14,8 +14,11 @@ export interface DistanceOptions extends CallOptions {
 
 /** The samples of a lattice: give one of `resolution` (cells along the longest side, 64 unless given), `spacing` and `counts`. */
 export interface DistanceLatticeOptions extends DistanceOptions {
+  /** Cells along the longest side: 64 unless given. */
   resolution?: number;
+  /** Edge of a cubic cell. */
   spacing?: number;
+  /** Samples along x, y and z. */
   counts?: [number, number, number];
   /** Grows the bounds by this on every side first. */
   padding?: number;
@@ -23,8 +26,11 @@ export interface DistanceLatticeOptions extends DistanceOptions {
 
 /** Sample (i, j, k) lies at `origin + spacing * (i, j, k)`. */
 export interface DistanceLattice {
+  /** Samples along x, y and z. */
   counts: [number, number, number];
+  /** The first sample. */
   origin: [number, number, number];
+  /** From sample to sample along x, y and z. */
   spacing: [number, number, number];
   /** x fastest. */
   values: Float32Array;
@@ -54,6 +60,7 @@ interface CellOptions extends CallOptions {
   sharp?: number;
 }
 
+/** How far away the surface is, and its cells. */
 export interface OffsetOptions extends CellOptions {
   /** Above 0 outside, below 0 inside. */
   distance: number;
@@ -65,12 +72,15 @@ export interface Drain {
   at: [number, number, number];
   /** From there into the cavity. */
   direction: [number, number, number];
+  /** At least a cell. */
   radius: number;
 }
 
+/** How thick walls are, their drains, and cells. */
 export interface HollowOptions extends CellOptions {
   /** Of the walls: two cells at least. */
   thickness: number;
+  /** None unless given. */
   drains?: Drain[];
 }
 
@@ -82,6 +92,7 @@ export interface Distances {
   signedDistance(points: Points, options?: DistanceOptions): Promise<Float64Array>;
   /** The same at all samples of a lattice over the bounds. */
   signedDistance(options?: DistanceLatticeOptions): Promise<DistanceLattice>;
+  /** The nearest point of the shape to each of `points` (xyzxyz…). */
   closestPoints(points: Points, options?: CallOptions): Promise<ClosestPoints>;
   /**
    * The surface at a signed distance from the shape, closed and manifold. Outside, and √3 cells away or more, it strictly contains all
@@ -90,6 +101,7 @@ export interface Distances {
   offset(options: OffsetOptions): Promise<Mesh>;
 }
 
+/** The same in `./sync`. */
 export interface SyncDistances {
   signedDistance(points: Points, options?: DistanceOptions): Float64Array;
   signedDistance(options?: DistanceLatticeOptions): DistanceLattice;

@@ -30,7 +30,9 @@ export interface ErrorData {
  * or that the charts of a texture and their margins do not fit into its texels.
  */
 export class WindingError extends Error {
+  /** What went wrong, for programs. */
   readonly code: ErrorCode;
+  /** More, by code. */
   readonly details: Record<string, unknown>;
 
   constructor(code: ErrorCode, message: string, details: Record<string, unknown> = {}) {
@@ -40,6 +42,7 @@ export class WindingError extends Error {
     this.details = details;
   }
 
+  /** @internal */
   static from({ code, message, details }: ErrorData): WindingError {
     return new WindingError(code, message, details);
   }

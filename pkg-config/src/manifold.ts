@@ -32,8 +32,11 @@ export function soupArrays({ numProp, vertProperties, triVerts, mergeFromVert, m
 
 /** What `geometry()` of soups gives, `surface` and the like, or arrays of your own; without indices each three positions are a triangle. */
 export interface MeshArrays {
+  /** xyzxyz…, relative to `origin`. */
   positions: Float32Array | Float64Array;
+  /** Three for each triangle. */
   indices?: Uint32Array;
+  /** Three numbers to add to positions; zero unless given. */
   origin?: ArrayLike<number>;
 }
 

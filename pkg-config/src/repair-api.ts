@@ -4,6 +4,7 @@ import type { CheckReport } from './check-api.js';
 
 /** How a surface is made anew. */
 export interface RemeshOptions extends CallOptions {
+  /** Of soups `conserve` unless given; clouds are always made anew. */
   method?: 'remesh';
   /** Cells along the longest side; used when `spacing` is not given. Without either they are as large as the model's median edge is long. */
   resolution?: number;
@@ -36,6 +37,7 @@ export interface RepairOptions extends Omit<RemeshOptions, 'method'> {
 
 /** What a repair has changed, and what came of it. Numbers are of triangles if they do not say otherwise. */
 export interface RepairReport {
+  /** How it was repaired at last. */
   method: 'conserve' | 'remesh';
   /** Within which open edges were stitched. */
   tolerance: number;
@@ -53,15 +55,21 @@ export interface RepairReport {
   flipped: number;
   /** Cycles of boundary edges closed by caps, the triangles of these, and square millimetres. */
   holes: number;
+  /** See `holes`. */
   capTriangles: number;
+  /** See `holes`. */
   capArea: number;
+  /** Of the largest cap, in square millimetres. */
   largestCapArea: number;
   /** Those that others cut, into how many parts, and those that still cross as coordinates are rounded. */
   intersecting: number;
+  /** See `intersecting`. */
   parts: number;
+  /** See `intersecting`. */
   unresolved: number;
   /** Dropped, as the inside is on both sides; or on neither. */
   internal: number;
+  /** See `internal`. */
   outside: number;
   /** Pieces without thickness, dropped. */
   sheets: number;
@@ -69,6 +77,7 @@ export interface RepairReport {
   separatedVertices: number;
   /** Of the result: triangles of the input or parts of them, and new ones. */
   kept: number;
+  /** See `kept`. */
   new: number;
   /** Whether each edge of the result has two triangles, which run through it in opposite directions. */
   closed: boolean;
@@ -97,13 +106,16 @@ export interface RepairReport {
   };
 }
 
+/** A repaired shape, and what was done. */
 export interface Repaired<Soup> {
   /** A shape of its own, to be asked, exported and freed like any other. */
   soup: Soup;
+  /** What was done. */
   report: RepairReport;
   /** Of each triangle, the one of the input that it is or is a part of, 4294967295 for new ones; empty if all are new. */
   sources: Uint32Array;
   /** What `check` says of the soup, and of the result; absent if not wanted, the first for clouds too. */
   before?: CheckReport;
+  /** See `before`. */
   after?: CheckReport;
 }

@@ -12,6 +12,7 @@ type Synchronous<T> = { [K in keyof T]: Plain<T[K]> };
 /** As in the other entry. */
 type Combine = (operation: api.BooleanOperation, other: Shape, options?: api.BooleanOptions) => api.BooleanResult<Soup>;
 
+/** Triangles, as in the other entry; methods give their values at once. */
 export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | 'repair' | 'texture' | 'boolean' | keyof SyncDistances>, SyncDistances {
   boolean: Combine;
   /** As in the other entry. */
@@ -19,10 +20,12 @@ export interface Soup extends Omit<Synchronous<api.Soup>, 'toCloud' | 'repair' |
   repair(options?: api.RepairOptions): api.Repaired<Soup>;
   texture(options?: api.TextureOptions): Texture;
 }
+/** Points, as in the other entry; methods give their values at once. */
 export interface Cloud extends Omit<Synchronous<api.Cloud>, 'repair' | 'boolean' | keyof SyncDistances>, SyncDistances {
   boolean: Combine;
   repair(options?: api.RemeshOptions): api.Repaired<Soup>;
 }
+/** What `open` gives: `kind` tells which. */
 export type Shape = Soup | Cloud;
 /** A textured soup, as in the other entry. */
 export type Texture = Synchronous<api.Texture>;

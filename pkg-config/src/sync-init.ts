@@ -80,6 +80,7 @@ class Direct implements Caller {
   }
 }
 
+/** Options of `init` of `./sync`. */
 export type SyncInitOptions = Pick<InitOptions, 'wasmUrl'>;
 
 /** How a platform loads the WebAssembly of the single-threaded build. */

@@ -55,11 +55,13 @@ export interface TextureOptions extends ProxyOptions, AtlasOptions, CallOptions 
 export interface Distortion {
   /** Mean and largest ratio of the larger singular value to the smaller: 1 where angles are kept. */
   meanRatio: number;
+  /** See `meanRatio`. */
   largestRatio: number;
   /** Standard deviation of the natural logarithm of the ratio of areas: 0 where all are scaled alike. */
   areaSpread: number;
   /** Triangles that are flipped, and that have no area in the plane. */
   flipped: number;
+  /** See `flipped`. */
   flat: number;
   /** Triangles with an area in space. */
   triangles: number;
@@ -67,9 +69,11 @@ export interface Distortion {
 
 /** What became of the soup's triangles. */
 export interface MappingReport {
+  /** Of the soup. */
   triangles: number;
   /** Those whose corners meet different charts, and of these those put into one of them by its closest points. */
   acrossCharts: number;
+  /** See `acrossCharts`. */
   moved: number;
   /** Those that were flipped, or flat, before anything was moved, within one chart. */
   folded: number;
@@ -86,9 +90,11 @@ export interface MappingReport {
   torn: number;
   /** Starts of lines that meet no proxy, which take its nearest point; and lines from a boundary that were replaced by straight ones. */
   lostLines: number;
+  /** See `lostLines`. */
   tangentialLines: number;
   /** Triangles in narrow places, where the field is weak, whose lines do not lead out of them well: a smaller offset helps there. */
   weakField: number;
+  /** Of the soup’s texture. */
   distortion: Distortion;
 }
 
@@ -100,22 +106,27 @@ export interface TextureSeams {
   length: number;
 }
 
+/** What came of the stages. */
 export interface TextureReport {
   /** Of the proxy from the soup. */
   offset: number;
+  /** Triangles of the proxy. */
   proxyTriangles: number;
   /** Pieces of the proxy: more than one where gaps between parts of the soup are wider than two offsets. */
   proxyComponents: number;
+  /** Pieces of the atlas. */
   charts: number;
   /** Of all seams of the proxy, each counted once. */
   seamLength: number;
   /** Share of the texture that charts cover. */
   coverage: number;
+  /** Of the atlas. */
   proxyDistortion: Distortion;
   /** Where the texture of the soup is cut. */
   seams: TextureSeams;
   /** One for each vertex of the soup and side that its triangles show there. */
   lines: number;
+  /** What became of the soup’s triangles. */
   mapping: MappingReport;
   /** Codes such as `coarse-proxy`, `several-proxies`, `lost-lines`, `tangential-lines`, `weak-field`, `bad-texture`. */
   warnings: Warning[];
@@ -170,6 +181,7 @@ export interface Projected {
   seams: TextureSeams;
 }
 
+/** The proxy with its atlas. */
 export interface ProxyGeometry {
   /** xyzxyz… */
   positions: Float64Array;
@@ -187,6 +199,7 @@ export interface ProxyGeometry {
 export interface FieldLines {
   /** xyzxyz… */
   points: Float64Array;
+  /** One more than lines. */
   offsets: Uint32Array;
 }
 
@@ -194,7 +207,9 @@ export interface FieldLines {
 export interface Texture {
   /** What came of it; another one after `remap`. */
   readonly report: TextureReport;
+  /** The soup with its texture coordinates. */
   geometry(): Promise<TexturedGeometry>;
+  /** The proxy with its charts and seams. */
   proxy(): Promise<ProxyGeometry>;
   /** Which triangles are moved, laid flat, torn, or in narrow places, for a list of them or to colour them. */
   affected(): Promise<AffectedTriangles>;
@@ -223,6 +238,7 @@ export interface Texture {
   export(format: 'obj', options?: { name?: string; image?: string }): Promise<{ obj: Uint8Array; mtl: Uint8Array }>;
   /** Gives its memory back at once; later calls fail with `Freed`. */
   free(): void;
+  /** As `free`, for `using`. */
   [Symbol.dispose](): void;
 }
 

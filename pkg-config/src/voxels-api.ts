@@ -8,6 +8,7 @@ import type { CallOptions, Mesh, VoxelOptions, Voxels } from './api.js';
  */
 export type VoxelMethod = 'lattice' | 'exact' | 'continuation' | 'rays' | 'fast' | 'cloud';
 
+/** How it is found out what is inside. */
 export interface VoxelMethodOptions {
   /** `lattice` unless said otherwise. */
   method?: VoxelMethod;
@@ -26,6 +27,7 @@ export interface VoxelMethodOptions {
 
 /** Cells of a lattice in bricks of 8 × 8 × 8, for resolutions at which a byte or a bit for each is too much. */
 export interface VoxelBricks extends Omit<Voxels, 'inside'> {
+  /** The cells. */
   bricks: {
     /** Bricks that hold cells of both kinds: their places in the lattice of bricks, ⌈counts / 8⌉ along each axis, x fastest, which rise. */
     mixed: Uint32Array;
@@ -36,6 +38,7 @@ export interface VoxelBricks extends Omit<Voxels, 'inside'> {
   };
 }
 
+/** In which cells two sets differ. */
 export interface VoxelDifference {
   /** Places, x fastest, of voxels inside the first but not the second. */
   lost: Uint32Array;
@@ -47,6 +50,7 @@ export interface VoxelDifference {
   intersectionOverUnion: number;
 }
 
+/** How voxels are written. */
 export interface VoxelExportOptions {
   /** Of `vox`: all voxels inside, not those alone that can be seen. */
   solid?: boolean;

@@ -98,10 +98,10 @@ pub struct SliceReport {
     pub approximated: usize,
 }
 
-/// As [`slice`], one layer after the other from the lowest sample up, each with its place in the plan: only some are in memory.
+/// As [`slice()`], one layer after the other from the lowest sample up, each with its place in the plan: only some are in memory.
 ///
 /// # Errors
-/// As [`slice`].
+/// As [`slice()`].
 pub fn slice_each(
     field: &WindingField,
     plan: &LayerPlan,
@@ -116,7 +116,7 @@ pub fn slice_each(
 /// [`slice_each`] of spans that are given: part of a plan's, so that its layers may be made as they are wanted.
 ///
 /// # Errors
-/// As [`slice`].
+/// As [`slice()`].
 #[inline(never)]
 pub fn slice_spans(
     field: &WindingField,

@@ -39,8 +39,11 @@ impl Handle {
         let report = check(self.field(None, job)?, config, monitor).map_err(Failure::from)?;
         let result = plain(&report)?;
         for path in INDEX_LISTS {
-            let defects =
-                path.split('.').try_fold(result.clone(), |at, name| Reflect::get(&at, &name.into()))?;
+            // What was not asked for is absent, and has no parts.
+            let part = |at: JsValue, name: &str| {
+                if at.is_object() { Reflect::get(&at, &name.into()) } else { Ok(at) }
+            };
+            let defects = path.split('.').try_fold(result.clone(), part)?;
             if defects.is_object() {
                 flatten(&defects, "list")?;
             }

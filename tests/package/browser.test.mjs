@@ -1,37 +1,21 @@
 // The package in a plain page, without a bundler: with and without cross-origin isolation, and from another origin.
 import assert from 'node:assert/strict';
-import { createReadStream, existsSync, statSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { extname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { launch } from '../page/browser.mjs';
 import { install } from './install.mjs';
+import { FOR_ALL, ISOLATED, answers, ask, serve } from './pages.mjs';
 
 const { home } = install();
-const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
-const ISOLATED = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
-const FOR_ALL = { 'Access-Control-Allow-Origin': '*', 'Cross-Origin-Resource-Policy': 'cross-origin' };
-
-/** Serves the package's files, and an empty page at /. */
-async function serve(headers) {
-  const server = createServer(({ url }, response) => {
-    const path = new URL(url, 'http://here').pathname;
-    const file = join(home, path);
-    if (path === '/') return response.writeHead(200, { ...headers, 'Content-Type': 'text/html' }).end('<!doctype html>');
-    if (!existsSync(file) || !statSync(file).isFile()) return response.writeHead(404, headers).end();
-    response.writeHead(200, { ...headers, 'Content-Type': TYPES[extname(file)] ?? 'text/plain' });
-    return createReadStream(file).pipe(response);
-  });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  return { origin: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
-}
+/** What the package's README says it needs, and nothing else. */
+const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'";
 
 let chromium;
 const servers = {};
 before(async () => {
   chromium = await launch();
-  servers.isolated = await serve({ ...ISOLATED, ...FOR_ALL });
-  servers.plain = await serve(FOR_ALL);
+  servers.isolated = await serve(home, { ...ISOLATED, ...FOR_ALL });
+  servers.plain = await serve(home, FOR_ALL);
+  servers.strict = await serve(home, { ...ISOLATED, 'Content-Security-Policy': POLICY });
 });
 after(async () => {
   await chromium.close();
@@ -49,23 +33,6 @@ async function inPage(server, origin, file, action) {
   }
 }
 
-/** A tetrahedron asked twice, and a cloud without normals, for which more is loaded; run in the page. */
-const ask = async ({ init }) => {
-  const fw = await init();
-  const soup = await fw.Soup.from({
-    positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
-    indices: new Uint32Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]),
-  });
-  const inside = [...(await soup.contains(new Float64Array([0.2, 0.2, 0.2, 1, 1, 1])))];
-  const { counts } = await soup.voxelize({ resolution: 3 });
-  const onSphere = (i, z = (2 * i + 1) / 3000 - 1, r = Math.sqrt(1 - z * z)) => [r * Math.cos(2.4 * i), r * Math.sin(2.4 * i), z];
-  const cloud = await fw.Cloud.from({ points: new Float64Array(Array.from({ length: 3000 }, (_, i) => onSphere(i)).flat()) });
-  await cloud.orient();
-  const centre = (await cloud.windingNumbers(new Float64Array(3)))[0].toFixed(2);
-  return { inside, counts, centre, threads: fw.info.threads, reason: fw.info.reason, isolated: self.crossOriginIsolated };
-};
-const answers = { inside: [1, 0], counts: [3, 3, 3], centre: '1.00' };
-
 test('an isolated page gets threads', async () => {
   const { threads, reason, ...rest } = await inPage(servers.isolated, servers.isolated.origin, 'index.js', ask);
   assert.deepEqual(rest, { ...answers, isolated: true });
@@ -81,6 +48,22 @@ test('a page that is not isolated gets the single-threaded build and the reason'
 
 test('the package may come from another origin, threads included', async () => {
   const { threads, reason, ...rest } = await inPage(servers.isolated, servers.plain.origin, 'index.js', ask);
+  assert.deepEqual(rest, { ...answers, isolated: true });
+  assert.ok(threads >= 1, reason);
+});
+
+test('worker and WebAssembly may lie elsewhere than the script', async () => {
+  const { origin } = servers.plain;
+  const options = { workerUrl: `${origin}/dist/worker.js`, wasmUrl: `${origin}/dist/` };
+  const asked = `(module) => (${ask})(module, ${JSON.stringify(options)})`;
+  for (const [server, isIsolated] of [[servers.isolated, true], [servers.plain, false]]) {
+    const { threads, reason, ...rest } = await inPage(server, server.origin, 'index.js', asked);
+    assert.deepEqual([rest, threads > 0], [{ ...answers, isolated: isIsolated }, isIsolated], reason);
+  }
+});
+
+test('a strict policy for content is enough, with threads', async () => {
+  const { threads, reason, ...rest } = await inPage(servers.strict, servers.strict.origin, 'index.js', ask);
   assert.deepEqual(rest, { ...answers, isolated: true });
   assert.ok(threads >= 1, reason);
 });

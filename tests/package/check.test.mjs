@@ -46,6 +46,9 @@ for (const [name, start] of Object.entries(entries)) {
     assert.deepEqual(await soup.contains(new Float64Array([5, 5, 5])), new Uint8Array([1]));
     assert.deepEqual((await soup.orient({ method: 'visibility', rays: 16 })).flipped, new Uint32Array(0));
 
+    const less = await soup.check({ thickness: false, selfIntersections: false, resolution: 0 });
+    assert.deepEqual([less.thickness, less.selfIntersections, less.field, less.triangles], [undefined, undefined, undefined, 11]);
+
     await assert.rejects(async () => soup.check({ overhangAngle: 91 }), { code: 'InvalidArgument', message: /overhangAngle is 91/ });
     await assert.rejects(async () => soup.check({ samplez: 1 }), { code: 'InvalidArgument', message: /samplez/ });
     await assert.rejects(async () => soup.orient({ method: 'magic' }), { code: 'InvalidArgument' });

@@ -1,4 +1,4 @@
-// The package as a dependency: its manifest, its types, its README, and what importing it touches.
+// The package as a dependency: its manifest, its types, and what importing it touches.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
@@ -10,7 +10,6 @@ import { pathToFileURL } from 'node:url';
 import { npmTool } from '../../pkg-config/tools/npm.mjs';
 import { www } from '../../pkg-config/tools/paths.mjs';
 import { install, pack } from './install.mjs';
-import { boxObj } from './shapes.mjs';
 
 const { folder, home } = install();
 const development = (name) => import(pathToFileURL(createRequire(join(www, 'package.json')).resolve(name)).href);
@@ -58,26 +57,6 @@ test('a program that uses the types compiles, and one that misuses them does not
   });
 });
 
-test('the README’s examples run', () => {
-  const examples = [...readFileSync(join(home, 'README.md'), 'utf8').matchAll(/```js\n([^]*?)```/g)].map((match) => match[1]);
-  assert.equal(examples.length, 6);
-  const [example, clouds, prints, solids, textures, longCall] = examples;
-  const checks = `
-    import assert from 'node:assert/strict';
-    assert.deepEqual([inside, numbers.map(Math.round)], [new Uint8Array([1, 0]), new Float64Array([1])]);
-    assert.deepEqual([voxels.counts, layers.length, mesh.indices.length > 0], [[64, 64, 64], 50, true]);
-    assert.deepEqual([report.verdict.rating, soup.count, wider.indices.length > 0, joined.operands.includes(1)], ['clean', 12, true, true]);
-    assert.deepEqual([far[0] > 0, saved.length > 100], [true, true]);
-    assert.deepEqual([noise.length, scan.hasNormals, skin.indices.length > 0, corners.count], [1000, true, true, 8]);
-    assert.deepEqual([uvs.length, threads.offsets.length > 8, chain.length > 5, files.obj.length > 100], [72, true, true, true]);
-    process.exit(0);`;
-  writeFileSync(join(folder, 'part.stl'), boxObj());
-  writeFileSync(join(folder, 'example.mjs'), example.replace('shape.free();', `${[clouds, prints, solids, textures, longCall.replace('400', '40')].join('\n')}\nshape.free();${checks}`));
-  const output = execFileSync('node', ['example.mjs'], { cwd: folder, encoding: 'utf8', timeout: 60_000 });
-  assert.match(output, /^soup 12 /);
-  assert.match(output, /\n1000 normals\n/);
-});
-
 test('a program ends by itself when it has nothing left to ask', () => {
   writeFileSync(join(folder, 'ends.mjs'), "import { init } from 'fast-winding'; await init({ threads: 2 }); console.log('ran');");
   assert.equal(execFileSync('node', ['ends.mjs'], { cwd: folder, encoding: 'utf8', timeout: 30_000 }), 'ran\n');
@@ -95,4 +74,10 @@ test('nothing but the package’s own files is packed', () => {
   const files = readdirSync(home, { recursive: true, withFileTypes: true }).filter((f) => f.isFile()).map((f) => f.name);
   assert.ok(files.includes('LICENSE-MIT') && files.includes('LICENSE-APACHE') && files.includes('README.md'));
   assert.deepEqual(files.filter((name) => !/\.(js|d\.ts|wasm)$|^(LICENSE-.*|README\.md|package\.json)$/.test(name)), []);
+});
+
+test('it depends on nothing, and editors are told units and shapes', () => {
+  const { dependencies, bundledDependencies } = JSON.parse(readFileSync(join(home, 'package.json'), 'utf8'));
+  assert.deepEqual([dependencies, bundledDependencies], [undefined, undefined]);
+  assert.match(readFileSync(join(home, 'dist', 'api.d.ts'), 'utf8'), /\/\*\* xyzxyz… in millimetres, relative to `origin`\. \*\/\n\s*positions: Float32Array;/);
 });

@@ -1,7 +1,7 @@
 // The entry for three.js, with three itself: geometries to soups and clouds and back, contours, planes of the field.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
+import { mkdirSync, symlinkSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -10,7 +10,7 @@ import { www } from '../../pkg-config/tools/paths.mjs';
 import { install } from './install.mjs';
 import { area, box, sphere, volume } from './shapes.mjs';
 
-const { folder, home, load } = install();
+const { folder, load } = install();
 const THREE = createRequire(join(www, 'package.json'))('three');
 const { soupArrays, cloudArrays, toGeometry, contourGeometry, planeGeometry, planeTexture } = await load('three/index.js');
 const fw = await (await load('node/sync.js')).init();
@@ -196,19 +196,4 @@ test('types are those of three', () => {
   };
   compile('zTop');
   assert.throws(() => compile('zMiddle'), ({ stdout }) => /zMiddle/.test(String(stdout)));
-});
-
-test('the README’s example runs', async () => {
-  const [, example] = readFileSync(join(home, 'README.md'), 'utf8').match(/```js three\n([^]*?)```/);
-  const body = example.replace(/^import .*\n/gm, '');
-  const mesh = new THREE.Mesh(new THREE.TorusKnotGeometry(10, 3, 64, 8), new THREE.MeshBasicMaterial());
-  const scene = new THREE.Scene().add(mesh);
-  const three = await load('three/index.js');
-  const run = new Function('THREE', 'fw', 'mesh', 'scene', ...Object.keys(three), `return (async () => { ${body} })();`);
-  const { init } = await load('node/index.js');
-  const engine = await init({ threads: 2 });
-  await run(THREE, engine, mesh, scene, ...Object.values(three));
-  engine.dispose();
-  assert.equal(scene.children.length, 4);
-  assert.ok(scene.children.every((object) => object.geometry.attributes.position.count > 3));
 });

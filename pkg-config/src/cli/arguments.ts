@@ -17,8 +17,8 @@ export const COMMON = {
     choices: ['micron', 'millimeter', 'centimeter', 'inch', 'foot', 'meter'],
     help: 'unit of files that do not state theirs (millimeter)',
   },
-  threads: { kind: 'whole', value: 'N', help: 'threads in all; one for each processor unless given, 0 for the build without' },
-  jobs: { kind: 'whole', value: 'N', help: 'files at once, which share the threads; each thread one, 8 at most, unless given' },
+  threads: { kind: 'whole', value: 'N', help: 'threads in all (one for each processor); 0 for the build without' },
+  jobs: { kind: 'whole', value: 'N', help: 'files at once, which share the threads (one for each thread, 8 at most)' },
   quiet: { kind: 'flag', short: 'q', help: 'no progress, and no report where all is well' },
   help: { kind: 'flag', short: 'h', help: 'this' },
 } as const satisfies Options;

@@ -13,11 +13,15 @@ export interface Task {
   readonly call: Required<CallOptions>;
   /** Reads one more file. */
   open(path: string): Promise<Soup | Cloud>;
-  readText(path: string): Promise<string>;
+  readBytes(path: string): Promise<Uint8Array>;
   /** Format of the file that is wanted, one of the command's; `undefined` if none is. */
   readonly format: string | undefined;
   /** Writes what is wanted: a file, or one part of several, which then has that after its name. */
   save(bytes: Uint8Array, part?: string): Promise<void>;
+  /** Writes a file with another ending beside the one that is wanted; the command's `beside` names the endings. */
+  saveBeside(bytes: Uint8Array, ending: string): Promise<void>;
+  /** Name of the file that is wanted, without its folder and ending. */
+  readonly stem: string;
 }
 
 /** What came of it. */
@@ -50,6 +54,8 @@ export interface Command<O extends Options = Options> {
   formatFor?(values: Values<NoInfer<O>>): string | undefined;
   /** Whether it writes many files for each input, so that `-o` is a folder. */
   writesParts?(values: Values<NoInfer<O>>): boolean;
+  /** Endings of the files that go beside one of this format; then `-o` is not standard output. */
+  beside?(format: string, values: Values<NoInfer<O>>): readonly string[];
   examples: readonly string[];
   /** Whether clouds get normals if they have none; they do unless this is false. */
   orientsClouds?: false;

@@ -1,6 +1,6 @@
 // Where results go, by `-o`, `--format` and the names of the inputs.
 import { statSync } from 'node:fs';
-import { basename, extname, join } from 'node:path';
+import { basename, dirname, extname, join } from 'node:path';
 import type { Plan } from './arguments.js';
 import { exists, refuse, writeOut, writeWhole } from './files.js';
 import { UsageError } from './usage.js';
@@ -10,10 +10,12 @@ export interface Destination {
   readonly path: string;
   readonly format: string;
   readonly hasParts: boolean;
+  /** Endings of the files that are written beside it. */
+  readonly beside: readonly string[];
 }
 
-const endingOf = (path: string): string => extname(path).slice(1).toLowerCase();
-const stemOf = (file: string): string => (file === '-' ? 'stdin' : basename(file, extname(file)));
+export const endingOf = (path: string): string => extname(path).slice(1).toLowerCase();
+export const stemOf = (file: string): string => (file === '-' ? 'stdin' : basename(file, extname(file)));
 
 /** What is there already; what cannot be looked at will fail when it is written. */
 function kindAt(path: string): 'folder' | 'file' | 'nothing' {
@@ -72,17 +74,24 @@ export function destinations(plan: Plan, inputs: readonly string[]): (Destinatio
   const isMany = inputs.length > 1;
   verify(plan, output, isMany, hasParts);
   const asked = formatAsked(plan);
-  if (output !== '-' && !isMany && !hasParts && !isFolder(output)) return [{ path: output, format: formatOfFile(output, plan, asked), hasParts }];
+  const place = (path: string, format: string): Destination => {
+    const beside = command.beside?.(format, plan.values) ?? [];
+    if (path === '-' && beside.length > 0) {
+      throw new UsageError(`standard output can take one file only: beside ${format} there is ${beside.join(' and ')}`, command.name);
+    }
+    return { path, format, hasParts, beside };
+  };
+  if (output !== '-' && !isMany && !hasParts && !isFolder(output)) return [place(output, formatOfFile(output, plan, asked))];
   const taken = new Map<string, string>();
   return inputs.map((input) => {
     const own = endingOf(input);
     const format = asked ?? (command.formats.includes(own) && output !== '-' ? own : command.formats[0]!);
-    if (output === '-') return { path: '-', format, hasParts };
+    if (output === '-') return place('-', format);
     const path = join(output, hasParts ? stemOf(input) : `${stemOf(input)}.${format}`);
     const other = taken.get(path);
     if (other !== undefined) throw new UsageError(`${other} and ${input} would both be written to ${path}`, command.name);
     taken.set(path, input);
-    return { path, format, hasParts };
+    return place(path, format);
   });
 }
 
@@ -98,15 +107,28 @@ export class Writer {
 
   /** Fails, before anything is computed, if what is to be written is there already. */
   async ready(): Promise<void> {
-    const { path, hasParts } = this.destination;
-    if (path !== '-' && !hasParts && !this.isForced && (await exists(path))) throw refuse(path);
+    const { path, hasParts, beside } = this.destination;
+    if (path === '-' || hasParts || this.isForced) return;
+    for (const file of [path, ...beside.map((ending) => this.besideOf(ending))]) if (await exists(file)) throw refuse(file);
   }
 
   async save(bytes: Uint8Array, part?: string): Promise<void> {
     const { path, format } = this.destination;
     if (path === '-') return writeOut(bytes);
-    const whole = part === undefined ? path : `${path}-${part}.${format}`;
-    await writeWhole(whole, bytes, this.isForced, this.signal);
-    this.written.push(whole);
+    await this.write(part === undefined ? path : `${path}-${part}.${format}`, bytes);
+  }
+
+  saveBeside(bytes: Uint8Array, ending: string): Promise<void> {
+    return this.write(this.besideOf(ending), bytes);
+  }
+
+  private async write(file: string, bytes: Uint8Array): Promise<void> {
+    await writeWhole(file, bytes, this.isForced, this.signal);
+    this.written.push(file);
+  }
+
+  private besideOf(ending: string): string {
+    const { path } = this.destination;
+    return join(dirname(path), `${stemOf(path)}.${ending}`);
   }
 }

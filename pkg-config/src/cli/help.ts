@@ -38,11 +38,13 @@ const section = (title: string, rows: readonly string[]): string => (rows.length
 const optionRows = (options: Options): string[] => Object.entries(options).map(optionRow);
 const exampleRows = (examples: readonly string[]): string[] => examples.map((example) => `  fast-winding ${example}`);
 
+const either = (names: readonly string[]): string => names.join(', ').replace(/, ([^,]*)$/, ' or $1');
+
 /** Help for one command. */
 export function helpOf({ name, summary, description, words = [], files, options, formats, examples }: Command): string {
   const named = [...words.map((word) => word.name), files === 'each' ? 'FILE…' : 'FILE FILE…'].join(' ');
   const choices = words.map((word) => row(word.name, word.choices.join(', ')));
-  const writes = formats.length > 0 ? [`Writes ${formats.join(', ')} with -o; without it there is only the report.`] : [];
+  const writes = formats.length > 0 ? [`With -o it writes ${either(formats)}; without there is only the report.`] : [];
   const common: Options = formats.length > 0 ? COMMON : (({ output, format, force, ...rest }) => rest)(COMMON);
   return [
     `fast-winding ${name} ${named} [options]\n\n${summary}\n`,
@@ -66,6 +68,9 @@ const EXITS = [
   ['130', 'interrupted'],
 ] as const;
 
+/** Examples of many files, and of other programs before and after. */
+const STREAMS = ['check --json models/*.stl > reports.jsonl', 'repair - -o - --format ply < broken.stl > fixed.ply'];
+
 /** Help for the whole. */
 export function help(): string {
   return [
@@ -75,7 +80,7 @@ export function help(): string {
     section('Options of every command', [...optionRows(COMMON), row('-V, --version', 'version')]),
     ...ABOUT.map((paragraph) => `\n${wrap(paragraph, 0)}\n`),
     section('Exit codes', EXITS.map(([code, meaning]) => row(code, meaning))),
-    section('Examples', exampleRows(COMMANDS.slice(1, 6).map(({ examples }) => examples[0]!))),
+    section('Examples', exampleRows([...COMMANDS.slice(1, 6).map(({ examples }) => examples[0]!), ...STREAMS])),
     '\nfast-winding COMMAND --help tells more.\n',
   ].join('');
 }

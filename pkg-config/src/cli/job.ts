@@ -2,7 +2,7 @@
 import type { Cloud, FastWinding, Soup } from '../api.js';
 import { WindingError } from '../error.js';
 import type { Plan } from './arguments.js';
-import { type Destination, Writer } from './destination.js';
+import { type Destination, Writer, stemOf } from './destination.js';
 import { FileError, read } from './files.js';
 import type { Progress } from './progress.js';
 import type { Result } from './report.js';
@@ -54,15 +54,17 @@ async function attempt({ plan, progress, signal }: Run, names: readonly string[]
       words,
       call,
       open: (path: string) => open(path, true),
-      readText: async (path: string) => {
+      readBytes: async (path: string) => {
         try {
-          return new TextDecoder().decode(await read(path, signal));
+          return await read(path, signal);
         } catch (error) {
           throw named(error, path, true);
         }
       },
       format: destination?.format,
+      stem: stemOf(destination?.path ?? names[0]!),
       save: (bytes: Uint8Array, part?: string) => writer!.save(bytes, part),
+      saveBeside: (bytes: Uint8Array, ending: string) => writer!.saveBeside(bytes, ending),
     };
     const outcome = await command.run(task, values);
     return { names, outcome, warnings: shapes.flatMap(({ warnings }) => warnings), written: writer?.written ?? [] };

@@ -11,10 +11,14 @@ import { Reporter, type Result } from './report.js';
 import { Stop } from './stop.js';
 import { EXIT, UsageError } from './usage.js';
 
-function codeOf(results: readonly Result[]): number {
-  if (results.some((result) => 'error' in result)) return EXIT.failed;
-  return results.some((result) => 'outcome' in result && result.outcome.passes === false) ? EXIT.doesNotPrint : EXIT.done;
+/** The exit code that one result asks for. */
+function codeOf(result: Result): number {
+  if ('error' in result) return EXIT.failed;
+  return result.outcome.passes === false ? EXIT.doesNotPrint : EXIT.done;
 }
+
+/** Of several: what failed weighs more than what does not print. */
+const weightiest = (codes: ReadonlySet<number>): number => [EXIT.failed, EXIT.doesNotPrint].find((code) => codes.has(code)) ?? EXIT.done;
 
 async function runPlan(plan: Plan): Promise<number> {
   const { command, files, common } = plan;
@@ -24,15 +28,15 @@ async function runPlan(plan: Plan): Promise<number> {
   const isShown = process.stderr.isTTY === true && !common.quiet;
   const run: Run = { plan, progress: new Progress(jobs.length, isShown), signal: stop.signal };
   const reporter = new Reporter(plan, run.progress);
-  const results: Result[] = [];
+  const codes = new Set<number>();
   await runAll(jobs.length, share(jobs.length, common.threads, common.jobs), stop.signal, async (index, engine) => {
     const result = await runJob(run, jobs[index]!, places[index], engine);
-    results.push(result);
+    codes.add(codeOf(result));
     // Of what was stopped there is nothing to tell.
     if (!stop.signal.aborted) await reporter.take(index, result).catch(() => {});
   });
   run.progress.clear();
-  return stop.codeOr(codeOf(results));
+  return stop.codeOr(weightiest(codes));
 }
 
 const version = (): string => JSON.parse(readFileSync(new URL('../../package.json', import.meta.url), 'utf8')).version;

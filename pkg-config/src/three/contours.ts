@@ -2,6 +2,7 @@ import type { BufferGeometry } from 'three';
 import type { Layer } from '../api.js';
 import type { ThreeGeometry } from './module.js';
 
+/** Where contours are drawn. */
 export interface ContourOptions {
   /** The height at which contours are drawn: where the layer was sampled unless said otherwise. */
   at?: 'zBottom' | 'zSample' | 'zTop';

@@ -3,9 +3,13 @@ import type { ThreeGeometry } from './module.js';
 
 /** What `surface`, `offset` and the like give, and `geometry` of soups and clouds. */
 export interface MeshArrays {
+  /** xyzxyz…, relative to `origin`. */
   positions: Float32Array | Float64Array;
+  /** One unit vector for each position. */
   normals?: Float32Array;
+  /** Three for each triangle. */
   indices?: Uint32Array;
+  /** Three numbers to add to positions; zero unless given. */
   origin?: ArrayLike<number>;
 }
 

@@ -3,6 +3,7 @@ import type { BufferGeometry, DataTexture } from 'three';
 import type { HeatMap } from '../api.js';
 import type { ThreeGeometry, ThreeTexture } from './module.js';
 
+/** What the texture holds. */
 export interface PlaneTextureOptions {
   /** Red, green, blue and perhaps opacity for a winding number, from 0 to 255, in sRGB. */
   colour?: (w: number) => readonly [number, number, number, number?];

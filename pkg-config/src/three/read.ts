@@ -3,6 +3,7 @@ import type { BufferAttribute, BufferGeometry, InstancedMesh, InterleavedBufferA
 import type { CloudArrays, SoupArrays } from '../api.js';
 import { WindingError } from '../error.js';
 
+/** In which frame a geometry or an object is read: its own, unless said otherwise. */
 export interface ReadGeometryOptions {
   /** Of objects: in the world's frame, `matrixWorld` applied, rather than in the object's own. */
   world?: boolean;

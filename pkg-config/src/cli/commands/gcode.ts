@@ -15,7 +15,7 @@ type Profile = PrinterProfile & { settings?: ToolpathSettings };
 
 async function profileOf(task: Task, path: string | undefined): Promise<Profile> {
   if (path === undefined) return {};
-  const text = await task.readText(path);
+  const text = new TextDecoder().decode(await task.readBytes(path));
   try {
     return JSON.parse(text) as Profile;
   } catch (error) {

@@ -9,7 +9,8 @@ import { orient } from './orient.js';
 import { repair } from './repair.js';
 import { slice } from './slice.js';
 import { surface } from './surface.js';
+import { texture } from './texture.js';
 import { voxelize } from './voxelize.js';
 
 /** In the order in which the help lists them. */
-export const COMMANDS: readonly Command[] = [info, check, repair, orient, surface, slice, voxelize, boolean, offset, hollow, distance];
+export const COMMANDS: readonly Command[] = [info, check, repair, orient, surface, slice, voxelize, boolean, offset, hollow, texture, distance];
