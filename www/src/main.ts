@@ -1,9 +1,10 @@
 import './style/index.css';
-import { SAMPLES } from '../samples/catalogue.ts';
+import { followAddress } from './actions/address.ts';
 import { followModel } from './actions/check.ts';
+import { followFiles } from './actions/keep.ts';
 import { followPlane } from './actions/layer.ts';
-import { open, sampleSource } from './actions/open.ts';
 import { followRecipe } from './actions/print.ts';
+import { addressOf } from './address.ts';
 import { byId } from './dom.ts';
 import { startPage } from './page.ts';
 import { checkPanel } from './panels/check.ts';
@@ -19,6 +20,7 @@ import { modelControls, showModelFacts } from './panels/model.ts';
 import { halvesButton } from './panels/halves.ts';
 import { movesPanel } from './panels/moves.ts';
 import { offsetPanel } from './panels/offset.ts';
+import { followOptions } from './panels/options.ts';
 import { planPanel } from './panels/plan.ts';
 import { measureLegend, pointControls } from './panels/points.ts';
 import { printPanel } from './panels/print.ts';
@@ -35,7 +37,7 @@ import { startTheme } from './theme.ts';
 import { View } from './view/view.ts';
 
 const store = new Store<State>(initialState());
-folds();
+folds(store);
 showJob(store);
 problemPanel(store);
 enginePanel(store);
@@ -81,7 +83,9 @@ async function startEngine(): Promise<void> {
     jobControls(store, page.jobs);
     followPlane(page);
     followModel(page);
-    await Promise.all([open(page, sampleSource(SAMPLES[0].file)), followRecipe(page)]);
+    followFiles(page);
+    const restore = followOptions(() => addressOf(location.hash));
+    await Promise.all([followAddress(page).then(restore), followRecipe(page)]);
   } catch (error) {
     byId('engine').dataset.state = 'failed';
     byId('engine-text').textContent = 'not running';

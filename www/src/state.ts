@@ -1,4 +1,5 @@
 import type { Bounds, CheckReport, Cloud, HeatMap, Info, Layer, Prepared, Soup, Voxels, Warning } from 'fast-winding';
+import type { Tool } from './address.ts';
 import type { Comparison } from './comparison.ts';
 import type { DefectKind } from './defects.ts';
 import type { PlaneDistances } from './distances.ts';
@@ -103,6 +104,10 @@ export type Item = (typeof ITEMS)[number];
 export interface State {
   info?: Info;
   model?: Model;
+  /** Whether the browser keeps the model's file; undefined for a sample, and until it is known. */
+  kept?: boolean;
+  /** Where the person is. */
+  tool?: Tool;
   plane: Plane;
   layer?: Timed<Layer>;
   heat?: Timed<HeatMap>;

@@ -1,3 +1,4 @@
+import type { Kept } from '../kept.ts';
 import type { Page, Source, Unit } from '../page.ts';
 import { initialState } from '../state.ts';
 import type { Model } from '../state.ts';
@@ -25,13 +26,25 @@ export async function reopen(page: Page, unit: Unit): Promise<void> {
 
 /** A source for a file that was dropped or chosen. */
 export function fileSource(file: File): Source {
-  return { name: file.name, unit: 'millimeter', read: async () => new Uint8Array(await file.arrayBuffer()) };
+  return { name: file.name, id: newId(), unit: 'millimeter', read: async () => new Uint8Array(await file.arrayBuffer()) };
+}
+
+/** A source for a file that the browser has kept. */
+export function keptSource({ id, name, unit, bytes }: Kept): Source {
+  return { id, name, unit, read: async () => bytes.slice() };
+}
+
+/** By which a source is told from all others. */
+export function newId(): string {
+  return Math.random().toString(36).slice(2, 12);
 }
 
 /** A source for one of the samples served with the page. */
 export function sampleSource(file: string): Source {
   return {
     name: file,
+    id: file,
+    sample: file,
     unit: 'millimeter',
     async read(signal) {
       const response = await fetch(`samples/${file}`, { signal });
