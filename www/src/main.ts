@@ -5,14 +5,16 @@ import { followFiles } from './actions/keep.ts';
 import { followPlane } from './actions/layer.ts';
 import { followRecipe } from './actions/print.ts';
 import { addressOf } from './address.ts';
+import { followResults } from './actions/results.ts';
 import { byId } from './dom.ts';
 import { startPage } from './page.ts';
+import { startOffline } from './offline.ts';
 import { checkPanel } from './panels/check.ts';
 import { combinePanel } from './panels/combine.ts';
 import { distanceLegend } from './panels/distance-legend.ts';
 import { dock } from './panels/dock.ts';
 import { enginePanel, fieldButton } from './panels/engine.ts';
-import { folds } from './panels/folds.ts';
+import { folds, showTool } from './panels/folds.ts';
 import { jobControls, showJob } from './panels/job.ts';
 import { layerPanel } from './panels/layer.ts';
 import { legendPanel } from './panels/legend.ts';
@@ -26,6 +28,7 @@ import { measureLegend, pointControls } from './panels/points.ts';
 import { printPanel } from './panels/print.ts';
 import { problemPanel } from './panels/problem.ts';
 import { repairPanel } from './panels/repair.ts';
+import { resultsPanel } from './panels/results.ts';
 import { showPanel } from './panels/show.ts';
 import { surfacePanel, voxelPanel } from './panels/solid.ts';
 import { texturePanel } from './panels/texture.ts';
@@ -51,7 +54,9 @@ movesPanel(store);
 dock(store);
 planPanel(store);
 startView();
-await startEngine();
+const started = startEngine();
+void startOffline(started);
+await started;
 
 /** Without WebGL 2 the rest of the page still works. */
 function startView(): void {
@@ -83,9 +88,11 @@ async function startEngine(): Promise<void> {
     jobControls(store, page.jobs);
     followPlane(page);
     followModel(page);
+    resultsPanel(page);
     followFiles(page);
+    followResults(page);
     const restore = followOptions(() => addressOf(location.hash));
-    await Promise.all([followAddress(page).then(restore), followRecipe(page)]);
+    await Promise.all([followAddress(page, showTool).then(restore), followRecipe(page)]);
   } catch (error) {
     byId('engine').dataset.state = 'failed';
     byId('engine-text').textContent = 'not running';

@@ -6,6 +6,7 @@ import type { PlaneDistances } from './distances.ts';
 import { UNMOVED } from './placement.ts';
 import type { Placement } from './placement.ts';
 import type { Picture } from './picture.ts';
+import type { Result } from './made.ts';
 import type { MoveKind, Nozzle, Print, Recipe } from './print.ts';
 import type { Problem } from './problem.ts';
 import type { Combined, Offset, Repair, SurfaceMesh } from './results.ts';
@@ -138,6 +139,10 @@ export interface State {
   picture?: Picture;
   /** Whether something runs along the field lines. */
   isFlowing: boolean;
+  /** All that was made of the model, the newest last. */
+  results: readonly Result[];
+  /** What the left half of the view shows instead of the model. */
+  against?: Result;
   /** Ways of making voxels, side by side. */
   comparison?: Comparison;
   /** What meshes are saved as. */
@@ -174,6 +179,7 @@ export function initialState(): State {
     seams: [],
     isDrawing: false,
     isFlowing: false,
+    results: [],
     meshFormat: 'stl',
     halves: false,
     cutAway: false,
@@ -199,6 +205,8 @@ export const NOTHING_MADE = {
   offset: undefined,
   combined: undefined,
   texture: undefined,
+  results: [],
+  against: undefined,
   seams: [],
   seamStart: undefined,
   isDrawing: false,

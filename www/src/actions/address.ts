@@ -1,16 +1,15 @@
 /** The page's address follows what is shown, and what is shown follows the address. */
 import { SAMPLES } from '../../samples/catalogue.ts';
 import { addressOf, hashOf, sampleNamed } from '../address.ts';
-import type { Address } from '../address.ts';
+import type { Address, Tool } from '../address.ts';
 import { stem } from '../download.ts';
 import { keptFile } from '../kept.ts';
 import type { Page, Source } from '../page.ts';
-import { showTool } from '../panels/folds.ts';
 import type { Problem } from '../problem.ts';
 import { keptSource, open, sampleSource } from './open.ts';
 
 /** Opens what the address says, and goes on following it. Another model is a step back in the browser's history; another tool is none. */
-export async function followAddress(page: Page): Promise<void> {
+export async function followAddress(page: Page, showTool: (tool: Tool) => void): Promise<void> {
   const { store } = page;
   let latest: Address | undefined;
   /** The address is given and is not to be written meanwhile. */

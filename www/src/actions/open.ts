@@ -47,7 +47,9 @@ export function sampleSource(file: string): Source {
     sample: file,
     unit: 'millimeter',
     async read(signal) {
-      const response = await fetch(`samples/${file}`, { signal });
+      const response = await fetch(`samples/${file}`, { signal }).catch((error: unknown) => {
+        throw signal.aborted ? error : new Error(`the server does not answer, and ${file} was not opened here before`);
+      });
       if (!response.ok) throw new Error(`the server answered ${response.status} for samples/${file}`);
       return new Uint8Array(await response.arrayBuffer());
     },

@@ -79,7 +79,6 @@ export async function combine(page: Page, operation: BooleanOperation): Promise<
     }
     try {
       const value = { soup, triangles: await soup.geometry(), operands, warnings };
-      store.state.combined?.value.soup.free();
       store.set({ combined: { value, milliseconds: made.milliseconds }, visible: only(page, 'combined') });
     } catch (error) {
       soup.free();
