@@ -22,6 +22,7 @@ import { modelControls, showModelFacts } from './panels/model.ts';
 import { halvesButton } from './panels/halves.ts';
 import { movesPanel } from './panels/moves.ts';
 import { offsetPanel } from './panels/offset.ts';
+import { notes } from './panels/note.ts';
 import { followOptions } from './panels/options.ts';
 import { planPanel } from './panels/plan.ts';
 import { measureLegend, pointControls } from './panels/points.ts';
@@ -39,6 +40,8 @@ import { Store } from './store.ts';
 import { startTheme } from './theme.ts';
 import { View } from './view/view.ts';
 
+let show = (): void => undefined;
+void startOffline(new Promise<void>((resolve) => (show = resolve)));
 const store = new Store<State>(initialState());
 folds(store);
 showJob(store);
@@ -53,10 +56,10 @@ halvesButton(store);
 movesPanel(store);
 dock(store);
 planPanel(store);
+notes(store);
 startView();
-const started = startEngine();
-void startOffline(started);
-await started;
+await startEngine();
+show();
 
 /** Without WebGL 2 the rest of the page still works. */
 function startView(): void {

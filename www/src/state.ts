@@ -166,6 +166,8 @@ export interface State {
   hiddenMoves: ReadonlySet<MoveKind>;
   visible: Readonly<Record<Item, boolean>>;
   job?: Job;
+  /** What has happened last. */
+  note?: string;
   problem?: Problem;
 }
 

@@ -78,7 +78,8 @@ function iconButton(name: string, icon: string, press: () => void): HTMLButtonEl
   return button;
 }
 
-function figureOf(result: Result): string {
+/** How much it is, and how long it took. */
+export function figureOf(result: Result): string {
   const time = milliseconds(result.made.milliseconds);
   switch (result.item) {
     case 'repaired':

@@ -19,6 +19,7 @@ export class Stage {
   /** What to show in the left and the right half, if the view is split. */
   #halves: readonly (() => void)[] = [];
   #box?: Box;
+  #wholeBox: () => Box | undefined = () => this.#box;
   #isWaiting = false;
 
   constructor(canvas: HTMLCanvasElement) {
@@ -80,10 +81,15 @@ export class Stage {
   }
 
   /** Looks at the whole box, from now on what there is; from where the camera is unless a direction is given. */
-  frame(box: Box | undefined = this.#box, direction?: Direction): void {
+  frame(box: Box | undefined = this.#wholeBox(), direction?: Direction): void {
     if (!box) return;
     this.#box = box;
     this.#go(cameraFor(box, this.camera, this.#controls.target, direction));
+  }
+
+  /** Tells what is shown, to be looked at when the person asks for all of it. */
+  whole(box: () => Box | undefined): void {
+    this.#wholeBox = () => box() ?? this.#box;
   }
 
   /** Looks at a part of what there is, from the side that it faces if that is given. */

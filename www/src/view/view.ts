@@ -1,4 +1,4 @@
-import { Plane, Vector3 } from 'three';
+import { Box3, Plane, Vector3 } from 'three';
 import { colourOf, spanOf } from '../colour.ts';
 import { byId } from '../dom.ts';
 import { shadesOf } from '../measure.ts';
@@ -27,6 +27,8 @@ const BOUNDARY_PIXELS = 2.5;
 
 /** Where in the state each solid is. */
 const SOURCES: Record<Solid, keyof State> = { voxels: 'voxels', surface: 'surface', repaired: 'repair', offset: 'offset', combined: 'combined', difference: 'comparison' };
+/** What the view is fitted to. */
+const BODIES: readonly Item[] = ['model', ...SOLIDS, 'second', 'proxy', 'fieldLines', 'textured'];
 /** What is seen with the model when it is beside what was made of it. */
 const BESIDE: readonly Item[] = ['model', 'boundary', 'normals', 'defects', 'second'];
 
@@ -56,6 +58,7 @@ export class View {
     this.#inspector = new Inspector(store, this.#stage, this.#items.defects);
     this.#placing = new Placing(store, this.#stage, this.#items.second);
     this.#texturing = new TexturingView(store, this.#stage, this.#items);
+    this.#stage.whole(() => this.#box());
     this.#stage.beforeDraw(() => this.#followCamera());
     this.#followStore();
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-view]')) {
@@ -75,6 +78,15 @@ export class View {
     this.#inspector.refresh();
     this.#placing.refresh();
     this.#texturing.refresh(this.#cut);
+  }
+
+  /** Of the bodies that are shown. */
+  #box(): Box | undefined {
+    const { visible, halves } = this.#store.state;
+    const made = madeOf(this.#store.state);
+    const box = new Box3();
+    for (const item of BODIES) if (halves ? item === 'model' || item === made : visible[item]) box.expandByObject(this.#items[item].group);
+    return box.isEmpty() ? undefined : { min: box.min.toArray(), max: box.max.toArray() };
   }
 
   /** From below, the floor would hide what stands on it. */
