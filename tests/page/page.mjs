@@ -4,20 +4,43 @@ import { readFile } from 'node:fs/promises';
 
 const FOLDS = ['check', 'repair', 'voxels', 'surface', 'offset', 'combine', 'texture', 'print', 'engine'].map((name) => `${name}-block`);
 
-/** Opens the page, with what folds unfolded, and waits until the first sample is shown with its layer. */
-export async function openPage(browser, url, { width = 1600, height = 900, unfolded = FOLDS } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true });
+/**
+ * Opens the page, with what folds unfolded, and waits until a sample is shown with its layer: the first, or what the address names after
+ * its `#`. Without the service worker, unless it is wanted.
+ */
+export async function openPage(browser, url, { width = 1600, height = 900, unfolded = FOLDS, hash = '', serviceWorkers = 'block', ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true, serviceWorkers, ...options });
   await context.addInitScript((ids) => {
-    if (ids && !localStorage.getItem('fast-winding.open')) localStorage.setItem('fast-winding.open', JSON.stringify(ids));
+    if (!localStorage.getItem('fast-winding.open')) localStorage.setItem('fast-winding.open', JSON.stringify(ids));
   }, unfolded);
+  const page = await visit(context, url + hash);
+  await settled(page);
+  return page;
+}
+
+/** A new tab at an address; it may be loading still. */
+export async function visit(context, url) {
   const page = await context.newPage();
   page.setDefaultTimeout(60_000);
   page.errors = [];
   page.on('pageerror', (error) => page.errors.push(error.message));
   await page.goto(url);
-  await settled(page);
   return page;
 }
+
+/** Opens the page, and closes it when the work is done: without an uncaught error. */
+export async function withPage({ browser, server }, options, work) {
+  const page = await openPage(browser, server.url, options);
+  try {
+    await work(page);
+    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
+  } finally {
+    await page.context().close();
+  }
+}
+
+/** The smallest sample, for those who want another model anyway. */
+const SMALLEST = '#sample=teapot';
 
 /** Waits until no job runs and the layer of the plane is shown (or the model can have none). */
 export async function settled(page) {
@@ -28,19 +51,28 @@ export async function settled(page) {
   });
 }
 
-/** Opens the page with a model as the bytes of an STL file, and closes it when the work is done: without an uncaught error. */
-export async function withModel({ browser, server }, bytes, work, options) {
-  const page = await openPage(browser, server.url, options);
-  try {
+/** Opens the page with a model as the bytes of an STL file. */
+export function withModel(site, bytes, work, options) {
+  return withPage(site, { hash: SMALLEST, ...options }, async (page) => {
     await dropFile(page, 'box.stl', bytes);
-    const triangles = String(bytes.readUInt32LE(80));
-    await page.waitForFunction((triangles) => document.querySelector('#facts dd').textContent === triangles, triangles);
+    await shows(page, bytes.readUInt32LE(80).toLocaleString('en'));
     await settled(page);
     await work(page);
-    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
-  } finally {
-    await page.context().close();
-  }
+  });
+}
+
+/** Waits until the model has so many triangles or points, as they are written. */
+export async function shows(page, count) {
+  await page.waitForFunction((count) => document.querySelector('#facts dd')?.textContent === count, count);
+}
+
+/** Presses the button of a tool, and waits until there is a result more, or another one in its place. */
+export async function make(page, button) {
+  const newest = () => page.evaluate(() => Math.max(0, ...[...document.querySelectorAll('#results input')].map((input) => Number(input.value))));
+  const before = await newest();
+  await page.click(`${button}:enabled`);
+  await page.waitForFunction((before) => [...document.querySelectorAll('#results input')].some((input) => Number(input.value) > before), before);
+  await page.waitForSelector('#job', { state: 'hidden' });
 }
 
 /** The value beside a name in one of the lists of facts. */

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { describe, test } from 'node:test';
 import { boxObj, boxStl, sphereXyz } from './models.mjs';
-import { contourAt, drawnPixels, dropFile, fact, number, openPage, outside, picture, sampleHeight, settled, slide } from './page.mjs';
+import { contourAt, drawnPixels, dropFile, fact, number, openPage, outside, picture, sampleHeight, settled, slide, withPage as onSite } from './page.mjs';
 import { serve } from './serve.mjs';
 import { served } from './site.mjs';
 
@@ -11,15 +11,7 @@ const site = served();
 /** A box of 40 × 30 × 20 mm: its layers have an area of 1,200 mm² and a perimeter of 140 mm. */
 const BOX = boxStl([0, 0, 0], [40, 30, 20]);
 
-async function withPage(options, work) {
-  const page = await openPage(site.browser, site.server.url, options);
-  try {
-    await work(page);
-    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
-  } finally {
-    await page.context().close();
-  }
-}
+const withPage = (options, work) => onSite(site, options, work);
 
 describe('the sample', () => {
   test('is shown at once with its counts, its size and its open edges', () =>

@@ -40,8 +40,8 @@ import { Store } from './store.ts';
 import { startTheme } from './theme.ts';
 import { View } from './view/view.ts';
 
-let show = (): void => undefined;
-void startOffline(new Promise<void>((resolve) => (show = resolve)));
+let shown = (): void => undefined;
+void startOffline(new Promise<void>((resolve) => (shown = resolve)));
 const store = new Store<State>(initialState());
 folds(store);
 showJob(store);
@@ -59,7 +59,7 @@ planPanel(store);
 notes(store);
 startView();
 await startEngine();
-show();
+shown();
 
 /** Without WebGL 2 the rest of the page still works. */
 function startView(): void {

@@ -16,9 +16,9 @@ export async function followAddress(page: Page, showTool: (tool: Tool) => void):
   const go = async (address: Address): Promise<void> => {
     latest = address;
     store.set({ tool: address.tool });
-    if (address.tool) showTool(address.tool);
     if (!isShown(page, address)) await openNamed(page, address);
     if (latest !== address) return;
+    if (address.tool) showTool(address.tool);
     latest = undefined;
     write(page, 'replaceState');
   };
