@@ -53,7 +53,7 @@ describe('a page that is loaded again', () => {
     withPage(site, { hash: '#sample=teapot' }, async (page) => {
       const box = (id) => page.isChecked(id);
       await slide(page, '#voxel-resolution', 64);
-      await page.selectOption('#voxel-method', 'parity');
+      await page.selectOption('#voxel-method', 'rays');
       await page.selectOption('#repair-method', 'remesh');
       await page.uncheck('#texture-auto');
       await page.fill('#check-thickness', '1.5');
@@ -67,7 +67,7 @@ describe('a page that is loaded again', () => {
       await page.check('#distance');
       await reload(page);
       assert.equal(await page.textContent('#voxel-resolution-out'), '64');
-      assert.equal(await page.inputValue('#voxel-method'), 'parity');
+      assert.equal(await page.inputValue('#voxel-method'), 'rays');
       assert.ok(await page.isVisible('#repair-cells'));
       assert.ok(await page.isVisible('#texture-cells'));
       assert.equal(await page.inputValue('#check-thickness'), '1.5');

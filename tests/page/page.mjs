@@ -1,6 +1,7 @@
 /** What a person sees and does on the page, in words the tests can use. */
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
+import { after, before } from 'node:test';
 
 const FOLDS = ['check', 'repair', 'voxels', 'surface', 'offset', 'combine', 'texture', 'print', 'engine'].map((name) => `${name}-block`);
 
@@ -37,6 +38,19 @@ export async function withPage({ browser, server }, options, work) {
   } finally {
     await page.context().close();
   }
+}
+
+/** One page for the tests of a suite, which do not mind what the one before has left; it has no uncaught error in the end. */
+export function sharedPage(site, options) {
+  const shared = {};
+  before(async () => {
+    shared.page = await openPage(site.browser, site.server.url, options);
+  });
+  after(async () => {
+    assert.deepEqual(shared.page.errors, [], 'no uncaught error on the page');
+    await shared.page.context().close();
+  });
+  return (work) => work(shared.page);
 }
 
 /** The smallest sample, for those who want another model anyway. */
@@ -124,8 +138,28 @@ export function sampleHeight(index) {
   return 32.9874 + 0.5 * (index + 0.5);
 }
 
-/** How many pixels of the 3D view differ from its background. */
+/** Which part of the pixels of the 3D view differs from its background. */
 export async function drawnPixels(page) {
+  const { width, height, data } = await viewPixels(page);
+  let drawn = 0;
+  for (let i = 3; i < data.length; i += 4) if (data[i] > 128) drawn++;
+  return drawn / (width * height);
+}
+
+/** Whether something that has a colour, as grey and the floor have not, reaches the sides of the 3D view. */
+export async function reachesSides(page) {
+  const { width, height, data } = await viewPixels(page);
+  const isColoured = (x, y) => {
+    const [red, green, blue, alpha] = data.slice(4 * (y * width + x), 4 * (y * width + x) + 4);
+    return alpha > 128 && Math.max(red, green, blue) - Math.min(red, green, blue) > 40;
+  };
+  for (let x = 0; x < width; x++) if (isColoured(x, 0) || isColoured(x, height - 1)) return true;
+  for (let y = 0; y < height; y++) if (isColoured(0, y) || isColoured(width - 1, y)) return true;
+  return false;
+}
+
+/** Every fourth pixel of the 3D view, along both sides. */
+async function viewPixels(page) {
   return page.evaluate(async () => {
     const canvas = document.getElementById('canvas');
     const copy = document.createElement('canvas');
@@ -137,10 +171,8 @@ export async function drawnPixels(page) {
     key('ArrowRight');
     await new Promise((resolve) => requestAnimationFrame(resolve));
     context.drawImage(canvas, 0, 0, copy.width, copy.height);
-    const { data } = context.getImageData(0, 0, copy.width, copy.height);
-    let drawn = 0;
-    for (let i = 3; i < data.length; i += 4) if (data[i] > 128) drawn++;
-    return drawn / (copy.width * copy.height);
+    const { width, height, data } = context.getImageData(0, 0, copy.width, copy.height);
+    return { width, height, data: [...data] };
   });
 }
 

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { describe, test } from 'node:test';
 import { boxObj, boxStl, sphereXyz } from './models.mjs';
-import { contourAt, drawnPixels, dropFile, fact, number, openPage, outside, picture, sampleHeight, settled, slide, withPage as onSite } from './page.mjs';
+import { contourAt, drawnPixels, dropFile, fact, number, openPage, outside, picture, sampleHeight, settled, sharedPage, shows, slide, withPage as onSite } from './page.mjs';
 import { serve } from './serve.mjs';
 import { served } from './site.mjs';
 
@@ -14,8 +14,10 @@ const BOX = boxStl([0, 0, 0], [40, 30, 20]);
 const withPage = (options, work) => onSite(site, options, work);
 
 describe('the sample', () => {
+  const onPage = sharedPage(site);
+
   test('is shown at once with its counts, its size and its open edges', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       assert.equal(await fact(page, 'facts', 'Triangles'), '69,451');
       assert.equal(await fact(page, 'facts', 'Boundary edges'), '223');
       assert.equal(await fact(page, 'facts', 'Size'), '155.7 × 120.7 × 154.3 mm');
@@ -24,7 +26,7 @@ describe('the sample', () => {
     }));
 
   test('runs on threads and says how many', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       const threads = await number(page, 'engine-facts', 'Threads');
       const processors = await page.evaluate(() => navigator.hardwareConcurrency);
       assert.ok(threads >= Math.min(2, processors) && threads <= processors, `${threads} threads on ${processors} processors`);
@@ -33,18 +35,20 @@ describe('the sample', () => {
     }));
 
   test('of the menu replaces the one before', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await page.selectOption('#sample', 'teapot.obj');
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '992');
+      await shows(page, '992');
       assert.equal(await fact(page, 'facts', 'Format'), 'OBJ');
     }));
 });
 
 describe('a dropped file', () => {
+  const onPage = sharedPage(site, { hash: '#sample=teapot' });
+
   test('is measured, cut and drawn', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       assert.equal(await fact(page, 'facts', 'Size'), '40 × 30 × 20 mm');
       assert.equal(await fact(page, 'facts', 'Boundary edges'), 'none, it is closed');
@@ -56,9 +60,9 @@ describe('a dropped file', () => {
     }));
 
   test('far from the origin is cut and drawn as well as one near it', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'survey.obj', boxObj([500_000, 4_000_000, 100], [500_040, 4_000_030, 120]));
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       assert.equal(await fact(page, 'facts', 'Size'), '40 × 30 × 20 mm');
       assert.ok(Math.abs((await number(page, 'layer-facts', 'Area')) - 1200) < 1);
@@ -66,9 +70,9 @@ describe('a dropped file', () => {
     }));
 
   test('in metres is made larger, and what is too large for a printer is warned of', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       assert.equal(await page.locator('#warnings li').count(), 0);
       await page.selectOption('#unit', 'meter');
@@ -92,7 +96,7 @@ describe('a dropped file', () => {
     }));
 
   test('that is cut short is told, whatever its length', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'cut.stl', BOX.subarray(0, 90));
       await page.waitForSelector('#problem:not([hidden])');
       assert.equal(await page.textContent('#problem-title'), 'cut.stl could not be opened');
@@ -100,8 +104,19 @@ describe('a dropped file', () => {
 });
 
 describe('the plane', () => {
+  const onPage = sharedPage(site);
+
+  test('is saved as SVG', () =>
+    onPage(async (page) => {
+      const [file] = await Promise.all([page.waitForEvent('download'), page.click('#layer-download')]);
+      assert.match(file.suggestedFilename(), /^bunny-z.*\.svg$/);
+      const text = await readFile(await file.path(), 'utf8');
+      assert.match(text, /<svg[^>]*>/);
+      assert.match(text, /<path|<polygon/);
+    }));
+
   test('moves its contour, and follows a fast slider to its last place', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       const before = await contourAt(page, sampleHeight(154));
       for (let index = 30; index <= 60; index++) await slide(page, '#layer-slider', index);
       const after = await contourAt(page, sampleHeight(60));
@@ -114,20 +129,20 @@ describe('the plane', () => {
     }));
 
   test('keeps its height when the layer height changes', () =>
-    withPage({}, async (page) => {
-      assert.equal(await page.textContent('#layer-out'), 'layer 155 of 309');
+    onPage(async (page) => {
+      assert.equal(await page.textContent('#layer-out'), 'layer 61 of 309');
       await page.fill('#layer-height', '1');
       await page.press('#layer-height', 'Enter');
-      assert.equal(await page.textContent('#layer-out'), 'layer 78 of 155');
+      assert.equal(await page.textContent('#layer-out'), 'layer 31 of 155');
       await page.fill('#layer-height', '-3');
       await page.press('#layer-height', 'Enter');
       assert.equal(await page.inputValue('#layer-height'), '1', 'a height that makes no sense is taken back');
     }));
 
   test('shows w as colours, 1 in the middle of a box and 0 beside it', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       await page.check('#heat');
       await page.waitForSelector('#plan-svg image', { state: 'attached' });
@@ -142,22 +157,13 @@ describe('the plane', () => {
       await page.uncheck('#heat');
       await page.waitForSelector('#plan-svg image', { state: 'detached' });
     }));
-
-  test('is saved as SVG', () =>
-    withPage({}, async (page) => {
-      const [file] = await Promise.all([page.waitForEvent('download'), page.click('#layer-download')]);
-      assert.match(file.suggestedFilename(), /^bunny-z.*\.svg$/);
-      const text = await readFile(await file.path(), 'utf8');
-      assert.match(text, /<svg[^>]*>/);
-      assert.match(text, /<path|<polygon/);
-    }));
 });
 
 describe('long work', () => {
   test('shows progress and ends in voxels whose volume is the box', () =>
     withPage({}, async (page) => {
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       await watchJobs(page);
       await page.click('#voxelize');
@@ -357,28 +363,34 @@ describe('an engine that dies', () => {
 });
 
 describe('the keyboard', () => {
-  test('reaches every control, and each has a name', () =>
-    withPage({}, async (page) => {
+  const onPage = sharedPage(site);
+
+  test('reaches every control, and each has a name and shows that it is reached', () =>
+    onPage(async (page) => {
       const reached = new Set();
       const nameless = [];
+      const unseen = [];
       for (let press = 0; press < 160; press++) {
         await page.keyboard.press('Tab');
-        const { id, name } = await page.evaluate(() => {
+        const { id, name, isSeen } = await page.evaluate(() => {
           const element = document.activeElement;
           const name = element.getAttribute('aria-label') || element.labels?.[0]?.textContent || element.textContent;
-          return { id: element.id || element.dataset.item || element.dataset.view, name: name.trim() };
+          // A radio button of a segmented control has its outline around its text.
+          const isSeen = [element, element.nextElementSibling].some((part) => part && getComputedStyle(part).outlineStyle !== 'none');
+          return { id: element.id || element.dataset.item || element.dataset.view, name: name.trim(), isSeen };
         });
         if (id) reached.add(id);
         if (id && !name) nameless.push(id);
+        if (id && !isSeen) unseen.push(id);
       }
-      assert.deepEqual(nameless, []);
+      assert.deepEqual([nameless, unseen], [[], []]);
       for (const id of ['theme', 'sample', 'choose', 'model', 'check', 'repair', 'voxel-resolution', 'voxelize', 'surface', 'offset', 'second-choose', 'print-density', 'prepare', 'canvas', 'fit', 'layer-slider', 'heat', 'distance']) {
         assert.ok(reached.has(id), `Tab reaches ${id}`);
       }
     }));
 
   test('moves the plane by single layers', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await page.focus('#layer-slider');
       await page.keyboard.press('ArrowRight');
       assert.equal(await page.textContent('#layer-out'), 'layer 156 of 309');
@@ -386,7 +398,7 @@ describe('the keyboard', () => {
     }));
 
   test('turns the view', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       const axes = () => page.innerHTML('#axes');
       await page.focus('#canvas');
       const before = await axes();
@@ -396,19 +408,17 @@ describe('the keyboard', () => {
 });
 
 describe('the layout', () => {
-  for (const width of [390, 768, 1024, 1600]) {
-    test(`fits ${width} px without scrolling sideways`, () =>
-      withPage({ width, height: 844 }, async (page) => {
-        await page.check('#heat');
-        await page.waitForSelector('#legend:not([hidden])');
-        const { scroll, client } = await page.evaluate(() => ({
-          scroll: document.documentElement.scrollWidth,
-          client: document.documentElement.clientWidth,
-        }));
-        assert.equal(scroll, client);
-        assert.deepEqual(await outside(page), []);
-      }));
-  }
+  test('fits 390 to 2560 px without scrolling sideways', () =>
+    withPage({ width: 390, height: 844 }, async (page) => {
+      await page.check('#heat');
+      await page.waitForSelector('#legend:not([hidden])');
+      for (const width of [390, 768, 1024, 1600, 2560]) {
+        await page.setViewportSize({ width, height: 844 });
+        const sideways = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+        assert.equal(sideways, 0, `${width} px`);
+        assert.deepEqual(await outside(page), [], `${width} px`);
+      }
+    }));
 
   test('follows the system into the dark, and the button leads out', async () => {
     const context = await site.browser.newContext({ colorScheme: 'dark' });

@@ -3,8 +3,9 @@ import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import { describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { boxStl, sphereStl, sphereXyz } from './models.mjs';
-import { dropFile, fact, openPage, outside, picture, saved, settled, slide, withModel as onPage } from './page.mjs';
+import { SIDES, boxStl, sphereStl, sphereXyz, together } from './models.mjs';
+import { dropFile, fact, openPage, outside, picture, reachesSides, saved, settled, slide, withModel as onPage } from './page.mjs';
+import { serve } from './serve.mjs';
 import { served } from './site.mjs';
 
 const require = createRequire(new URL('../../www/package.json', import.meta.url));
@@ -47,6 +48,25 @@ async function show(page, what) {
 /** The distance of the proxy, as it is told. */
 async function distance(page) {
   return parseFloat(await fact(page, 'texture-facts', 'Proxy'));
+}
+
+/** How many triangles the proxy has. */
+async function proxyTriangles(page) {
+  return parseInt(/([\d,]+) triangles/.exec(await fact(page, 'texture-facts', 'Proxy'))[1].replaceAll(',', ''), 10);
+}
+
+/** Waits until the facts of the texture are other ones, and no job runs. */
+async function another(page, change) {
+  const before = await page.textContent('#texture-facts');
+  await change();
+  await page.waitForFunction((before) => document.getElementById('texture-facts').textContent !== before, before);
+  await idle(page);
+}
+
+/** Sets a slider, and lets go of it. */
+async function drag(page, selector, value) {
+  await slide(page, selector, value);
+  await page.locator(selector).dispatchEvent('change');
 }
 
 /** Millimetres. */
@@ -175,13 +195,97 @@ describe('a texture', () => {
   test('is mapped anew when the proxy comes nearer, to the same lines', () =>
     withTexture(async (page) => {
       const lines = await fact(page, 'texture-facts', 'Field lines');
-      await slide(page, '#texture-offset', 50);
-      await page.locator('#texture-offset').dispatchEvent('change');
+      await drag(page, '#texture-offset', 50);
       await page.waitForFunction(() => document.querySelector('#texture-facts dd').textContent.startsWith('3 mm'));
       await idle(page);
       assert.equal(await fact(page, 'texture-facts', 'Field lines'), lines);
       assert.equal(await page.inputValue('#texture-exact'), '3');
     }));
+
+  test('has a proxy that is smoothed, for the same lines', () =>
+    withTexture(async (page) => {
+      await page.click('#texture-block details summary');
+      const lines = await fact(page, 'texture-facts', 'Field lines');
+      const [triangles, length] = [await proxyTriangles(page), await seamLength(page)];
+      await another(page, () => drag(page, '#texture-smoothing', 10));
+      assert.equal(await proxyTriangles(page), triangles, 'smoothing moves vertices alone');
+      assert.notEqual(await seamLength(page), length);
+      assert.equal(await fact(page, 'texture-facts', 'Field lines'), lines);
+    }));
+
+  test('has a proxy that goes in where its model is open, if that is wanted', () =>
+    withModel(boxStl([0, 0, 0], [40, 30, 20], { without: SIDES.top }), async (page) => {
+      await makeTexture(page, 2);
+      const outer = await proxyTriangles(page);
+      await page.click('#texture-block details summary');
+      await another(page, () => page.check('#texture-both'));
+      const both = await proxyTriangles(page);
+      assert.ok(both > 1.4 * outer, `${both} triangles for two sides, ${outer} for one`);
+    }));
+
+  test('splits triangles that cross before, if that is wanted', () =>
+    withModel(together(BOX, boxStl([10, 10, 10], [30, 20, 50])), async (page) => {
+      const textured = async () => parseInt(/(?:of|All) ([\d,]+)/.exec(await page.textContent('#texture-verdict-text'))[1].replaceAll(',', ''), 10);
+      await makeTexture(page);
+      assert.equal(await textured(), 24);
+      await page.click('#texture-block details summary');
+      await page.check('#texture-refine');
+      await another(page, () => page.click('#texture:enabled'));
+      assert.ok((await textured()) > 24, `${await textured()} triangles`);
+    }));
+
+  test('stays as it was when another mapping is cancelled', () =>
+    withTexture(async (page) => {
+      const [facts, view] = [await page.textContent('#texture-facts'), await picture(page)];
+      await page.click('#texture-block details summary');
+      await page.check('#texture-both');
+      await page.keyboard.press('Escape');
+      await idle(page);
+      await page.fill('#texture-exact', '0.3');
+      await page.press('#texture-exact', 'Enter');
+      await page.waitForSelector('#job:not([hidden])');
+      await page.keyboard.press('Escape');
+      await idle(page);
+      assert.equal(await page.textContent('#note'), 'Texture: cancelled');
+      assert.equal(await page.textContent('#texture-facts'), facts);
+      assert.equal(await page.inputValue('#texture-exact'), '4');
+      assert.ok(!(await page.isChecked('#texture-both')));
+      assert.equal(await picture(page), view);
+    }));
+
+  test('is wholly in view when the view is fitted, with its proxy while that is shown', () =>
+    withModel(BOX, async (page) => {
+      await makeTexture(page, 15);
+      await page.uncheck('[data-item=layer]');
+      await show(page, 'charts');
+      assert.ok(await reachesSides(page), 'the view is of the model, which the proxy is far larger than');
+      await page.click('[data-view=fit]');
+      assert.ok(!(await reachesSides(page)));
+    }));
+
+  test('is made, mapped anew and cancelled on one thread too', async () => {
+    const plain = await serve({ isolated: false });
+    try {
+      const work = async (page) => {
+        await makeTexture(page);
+        assert.equal(await page.evaluate(() => crossOriginIsolated), false);
+        await another(page, () => drag(page, '#texture-offset', 50));
+        assert.equal(await distance(page), 3);
+        await page.fill('#texture-exact', '0.3');
+        await page.press('#texture-exact', 'Enter');
+        await page.waitForSelector('#job:not([hidden])');
+        await page.keyboard.press('Escape');
+        await idle(page);
+        assert.equal(await distance(page), 3);
+        await another(page, () => drag(page, '#texture-offset', 80));
+        assert.equal(await distance(page), 4.8);
+        assert.equal((await saved(page, '#texture-download')).name, 'box-textured.glb');
+      };
+      await onPage({ ...site, server: plain }, BOX, work, { unfolded: ['texture-block'] });
+    } finally {
+      await plain.close();
+    }
+  });
 
   test('has the least distance suggested that one proxy needs', () =>
     withModel(BOX, async (page) => {
@@ -223,6 +327,17 @@ describe('a texture', () => {
       await page.waitForSelector('#texture-result', { state: 'hidden' });
       await settled(page);
       assert.equal(await page.locator('[data-item=textured]').isVisible(), false);
+    }));
+});
+
+describe('charts', () => {
+  test('are told to be stale when they are to turn by another angle, until they are laid flat again', () =>
+    withTexture(async (page) => {
+      assert.ok(await page.isHidden('#seam-stale'));
+      await drag(page, '#texture-cone', 30);
+      assert.ok(await page.isVisible('#seam-stale'));
+      await another(page, () => page.click('#flatten:enabled'));
+      assert.ok(await page.isHidden('#seam-stale'));
     }));
 });
 
