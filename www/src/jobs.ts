@@ -28,7 +28,7 @@ export class Jobs {
     const result = work({
       signal: controller.signal,
       onProgress: (fraction, stage) => {
-        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction, canCancel: true } });
+        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction: Number.isFinite(fraction) ? fraction : undefined, canCancel: true } });
       },
     });
     const running = { controller, settled: result.catch(() => undefined) };

@@ -38,7 +38,7 @@ import { initialState } from './state.ts';
 import type { State } from './state.ts';
 import { Store } from './store.ts';
 import { startTheme } from './theme.ts';
-import { View } from './view/view.ts';
+import type { View } from './view/view.ts';
 
 let shown = (): void => undefined;
 void startOffline(new Promise<void>((resolve) => (shown = resolve)));
@@ -57,17 +57,18 @@ movesPanel(store);
 dock(store);
 planPanel(store);
 notes(store);
-startView();
+void startView();
 await startEngine();
 shown();
 
-/** Without WebGL 2 the rest of the page still works. */
-function startView(): void {
+/** Once the page itself is seen. Without WebGL 2 the rest of it still works. */
+async function startView(): Promise<void> {
+  let view: View | undefined;
+  startTheme(byId<HTMLButtonElement>('theme'), () => view?.refresh());
   try {
-    const view = new View(store);
-    startTheme(byId<HTMLButtonElement>('theme'), () => view.refresh());
+    const { View } = await import('./view/view.ts');
+    view = new View(store);
   } catch (error) {
-    startTheme(byId<HTMLButtonElement>('theme'), () => undefined);
     store.set({ problem: problemOf('The 3D view needs WebGL 2', error) });
   }
 }

@@ -1,4 +1,4 @@
-import { BackSide, BufferAttribute, BufferGeometry, FrontSide, Mesh, MeshStandardMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, Color, DoubleSide, Mesh, MeshStandardMaterial } from 'three';
 import type { Plane } from 'three';
 import { token } from '../dom.ts';
 
@@ -9,27 +9,30 @@ export interface Triangles {
   readonly normals?: Float32Array;
 }
 
-/** Triangles whose front has one colour and whose back another, so that flipped and open parts are seen. */
+/** Triangles whose front has one colour and whose back another, so that flipped and open parts are seen; in one pass for both. */
 export function twoSidedMesh(triangles: Triangles, frontToken: string, cut: Plane[]): Mesh[] {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(triangles.positions, 3));
   geometry.setIndex(new BufferAttribute(triangles.indices, 1));
   if (triangles.normals) geometry.setAttribute('normal', new BufferAttribute(triangles.normals, 3));
-  const side = (colour: string, which: typeof FrontSide | typeof BackSide, depthOffset: number): Mesh =>
-    new Mesh(
-      geometry,
-      new MeshStandardMaterial({
-        color: token(colour),
-        side: which,
-        roughness: 0.9,
-        metalness: 0,
-        flatShading: !triangles.normals,
-        clippingPlanes: cut,
-        polygonOffset: true,
-        polygonOffsetFactor: depthOffset,
-        polygonOffsetUnits: depthOffset,
-      }),
-    );
-  // Lines on the mesh lie before it, and fronts before the backs they meet along a silhouette.
-  return [side(frontToken, FrontSide, 1), side('--view-back', BackSide, 3)];
+  const material = new MeshStandardMaterial({
+    color: token(frontToken),
+    side: DoubleSide,
+    roughness: 0.9,
+    metalness: 0,
+    flatShading: !triangles.normals,
+    clippingPlanes: cut,
+    // Lines on the mesh lie before it.
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+  const back = new Color(token('--view-back'));
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.back = { value: back };
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', '#include <common>\nuniform vec3 back;')
+      .replace('#include <color_fragment>', '#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb = back;');
+  };
+  return [new Mesh(geometry, material)];
 }

@@ -99,8 +99,7 @@ export class View {
   }
 
   #followStore(): void {
-    const { state } = this.#store;
-    let framed = state.model?.shape;
+    let framed: object | undefined;
     this.#store.on(['settling', 'measure'], () => this.#showModel());
     this.#store.on(['halves'], ({ halves }) => {
       this.#stage.split(halves ? [() => this.#showHalf(false), () => this.#showHalf(true)] : []);
