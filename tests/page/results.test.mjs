@@ -9,8 +9,8 @@ const site = served();
 
 const BOX = boxStl([0, 0, 0], [40, 30, 20], { without: [2, 3] });
 
-const names = (page) => page.locator('#results label').evaluateAll((labels) => labels.map((label) => label.childNodes[2].textContent.trim()));
-const chosen = (page) => page.locator('#results li:has(input:checked) label').evaluateAll((labels) => labels.map((label) => label.childNodes[2].textContent.trim()));
+const names = (page) => page.locator('#results label').evaluateAll((labels) => labels.map((label) => label.querySelector('.name').textContent));
+const chosen = (page) => page.locator('#results li:has(input:checked) label').evaluateAll((labels) => labels.map((label) => label.querySelector('.name').textContent));
 const choose = (page, name) => page.locator('#results label', { hasText: name }).locator('input').check();
 
 async function surface(page, resolution) {

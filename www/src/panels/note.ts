@@ -1,5 +1,5 @@
 import { byId } from '../dom.ts';
-import { plural } from '../format.ts';
+import { milliseconds, plural } from '../format.ts';
 import { nameOf } from '../made.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
@@ -22,7 +22,7 @@ export function notes(store: Store<State>): void {
     const last = results.at(-1);
     if (!last || last.id <= newest) return;
     newest = last.id;
-    store.set({ note: `${nameOf(last, results)}: ${figureOf(last)}` });
+    store.set({ note: `${nameOf(last, results)}: ${figureOf(last)}, ${milliseconds(last.made.milliseconds)}` });
   });
   store.on(['report'], ({ report, job }) => {
     if (report && job) store.set({ note: `Check: ${byId('verdict-text').textContent}` });

@@ -1,6 +1,6 @@
 import { compareWith, removeResult, saveResult, showResult } from '../actions/results.ts';
 import { byId } from '../dom.ts';
-import { count, duration, milliseconds, plural } from '../format.ts';
+import { count, duration, plural } from '../format.ts';
 import { ALL_MADE, isSolid, MADE, nameOf } from '../made.ts';
 import type { Result } from '../made.ts';
 import type { Page } from '../page.ts';
@@ -48,7 +48,7 @@ function choice(page: Page, result: Result | undefined, name: string): HTMLEleme
   const label = document.createElement('label');
   const input = document.createElement('input');
   const swatch = document.createElement('span');
-  const figure = document.createElement('span');
+  const [title, figure] = [0, 1].map(() => document.createElement('span'));
   label.className = 'check';
   input.type = 'radio';
   input.name = 'result';
@@ -59,7 +59,9 @@ function choice(page: Page, result: Result | undefined, name: string): HTMLEleme
   swatch.style.setProperty('--swatch', `var(${result ? MADE[result.item].token : '--view-front'})`);
   figure.className = 'figure';
   figure.textContent = result ? figureOf(result) : '';
-  label.append(input, swatch, ` ${name} `, figure);
+  title.className = 'name';
+  title.textContent = name;
+  label.append(input, swatch, title, figure);
   row.append(label);
   if (result) {
     row.append(iconButton(`Save ${name}`, SAVE, () => void saveResult(page, result)), iconButton(`Remove ${name}`, REMOVE, () => removeResult(page, result)));
@@ -78,23 +80,22 @@ function iconButton(name: string, icon: string, press: () => void): HTMLButtonEl
   return button;
 }
 
-/** How much it is, and how long it took. */
+/** How much it is. */
 export function figureOf(result: Result): string {
-  const time = milliseconds(result.made.milliseconds);
   switch (result.item) {
     case 'repaired':
     case 'combined':
-      return `${triangles(result.made.value.triangles)}, ${time}`;
+      return triangles(result.made.value.triangles);
     case 'textured':
-      return `${plural(result.made.value.report.charts, 'chart')}, ${time}`;
+      return plural(result.made.value.report.charts, 'chart');
     case 'offset':
-      return `${triangles(result.made.value.mesh)}, ${time}`;
+      return triangles(result.made.value.mesh);
     case 'surface':
-      return `${triangles(result.made.value)}, ${time}`;
+      return triangles(result.made.value);
     case 'voxels':
-      return `${count(result.made.value.count)} inside, ${time}`;
+      return `${count(result.made.value.count)} inside`;
     case 'print':
-      return `${duration(result.made.value.gcode.estimate.seconds)} to print, ${time}`;
+      return `${duration(result.made.value.gcode.estimate.seconds)} to print`;
   }
 }
 
