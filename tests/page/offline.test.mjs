@@ -10,14 +10,21 @@ const site = served();
 
 const isIsolated = (page) => page.evaluate(() => crossOriginIsolated);
 
+/** Waits until something holds on the page, which may be a promise there. */
+async function until(page, holds) {
+  for (let tries = 0; tries < 600; tries++) {
+    if (await page.evaluate(holds)) return;
+    await page.waitForTimeout(50);
+  }
+  assert.fail(`never: ${holds}`);
+}
+
 /** Waits until the worker has stored the page with all that it needs. */
-async function stored(page) {
-  const isThere = () =>
-    page.evaluate(async () => {
-      const stores = await Promise.all((await caches.keys()).map((name) => caches.open(name)));
-      return (await Promise.all(stores.map((store) => store.match('index.html')))).some(Boolean);
-    });
-  while (!(await isThere())) await page.waitForTimeout(50);
+function stored(page) {
+  return until(page, async () => {
+    const stores = await Promise.all((await caches.keys()).map((name) => caches.open(name)));
+    return (await Promise.all(stores.map((store) => store.match('index.html')))).some(Boolean);
+  });
 }
 
 /** A page, before it is loaded, which counts how often that happens. */
@@ -101,16 +108,13 @@ test('a newer page is shown at the next visit, and what is stored of the one bef
   isNew = true;
   const second = await visit(context, host.url);
   assert.match(await second.title(), /^newer/);
-  await second.waitForFunction(async () => (await navigator.serviceWorker.getRegistration())?.waiting);
+  await until(second, async () => (await navigator.serviceWorker.getRegistration()).waiting !== null);
   assert.ok((await second.evaluate(() => caches.keys())).includes(old), 'pages of the one before still have their files');
   await first.close();
   await second.close();
   const third = await visit(context, `${host.url}#sample=teapot`);
   await shows(third, '992');
-  let names;
-  do names = await third.evaluate(() => caches.keys());
-  while (names.includes(old));
-  assert.deepEqual(names, ['fast-winding-000000000001']);
+  await until(third, async () => (await caches.keys()).join() === 'fast-winding-000000000001');
   await host.close();
   await third.reload();
   await shows(third, '992');

@@ -9,6 +9,13 @@ export interface Triangles {
   readonly normals?: Float32Array;
 }
 
+/** Backs that are seen this aslant, as a cosine, are the far side of a silhouette, where they would draw a line around what is closed. */
+const SILHOUETTE = 0.2;
+const COLOUR_OF_BACKS = /* glsl */ `
+  vec3 facing = normalize(cross(dFdx(vViewPosition), dFdy(vViewPosition)));
+  if (!gl_FrontFacing && abs(dot(facing, normalize(vViewPosition))) > ${SILHOUETTE}) diffuseColor.rgb = back;
+`;
+
 /** Triangles whose front has one colour and whose back another, so that flipped and open parts are seen; in one pass for both. */
 export function twoSidedMesh(triangles: Triangles, frontToken: string, cut: Plane[]): Mesh[] {
   const geometry = new BufferGeometry();
@@ -32,7 +39,7 @@ export function twoSidedMesh(triangles: Triangles, frontToken: string, cut: Plan
     shader.uniforms.back = { value: back };
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\nuniform vec3 back;')
-      .replace('#include <color_fragment>', '#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb = back;');
+      .replace('#include <color_fragment>', `#include <color_fragment>\n${COLOUR_OF_BACKS}`);
   };
   return [new Mesh(geometry, material)];
 }
