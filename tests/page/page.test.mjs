@@ -159,6 +159,42 @@ describe('the plane', () => {
     }));
 });
 
+describe('a page without a model', () => {
+  test('says what to do, after the first one was cancelled or could not be had', async () => {
+    const context = await site.browser.newContext({ serviceWorkers: 'block' });
+    const page = await context.newPage();
+    let fail;
+    const isAsked = new Promise((asked) => {
+      void page.route('**/samples/teapot.obj', (route) => {
+        fail = () => route.abort();
+        asked();
+      });
+    });
+    await page.goto(`${site.server.url}#sample=teapot`);
+    await isAsked;
+    assert.equal(await page.textContent('#job-label'), 'Opening teapot.obj');
+    assert.ok(await page.isHidden('#empty'));
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('#empty:not([hidden])');
+    assert.equal(await page.textContent('#note'), 'Opening teapot.obj: cancelled');
+    assert.ok(await page.isHidden('#problem'));
+    for (const button of ['check', 'repair', 'voxelize', 'surface', 'offset', 'texture', 'prepare', 'halves']) assert.ok(await page.isDisabled(`#${button}`), button);
+
+    fail = undefined;
+    await page.reload();
+    while (!fail) await page.waitForTimeout(20);
+    await fail();
+    await page.waitForSelector('#problem:not([hidden])');
+    assert.equal(await page.textContent('#problem-title'), 'teapot.obj could not be opened');
+    assert.match(await page.textContent('#problem-detail'), /^The server does not answer, .*\.$/);
+    assert.ok(await page.isVisible('#empty'));
+    await page.selectOption('#sample', 'dragon-points.ply');
+    await settled(page);
+    assert.ok(await page.isHidden('#empty'));
+    await context.close();
+  });
+});
+
 describe('long work', () => {
   test('shows progress and ends in voxels whose volume is the box', () =>
     withPage({}, async (page) => {

@@ -29,7 +29,9 @@ export async function followAddress(page: Page, showTool: (tool: Tool) => void):
   });
 }
 
+/** While nothing is shown, the address stays as it is. */
 function write(page: Page, how: 'pushState' | 'replaceState'): void {
+  if (!page.source) return;
   const hash = hashOf({ ...namesOf(page.source), tool: page.store.state.tool });
   if (hash !== location.hash) history[how](null, '', hash);
 }
