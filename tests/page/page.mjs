@@ -41,10 +41,11 @@ export async function withPage({ browser, server }, options, work) {
 }
 
 /** One page for the tests of a suite, which do not mind what the one before has left; it has no uncaught error in the end. */
-export function sharedPage(site, options) {
+export function sharedPage(site, options, prepare = async () => {}) {
   const shared = {};
   before(async () => {
     shared.page = await openPage(site.browser, site.server.url, options);
+    await prepare(shared.page);
   });
   after(async () => {
     assert.deepEqual(shared.page.errors, [], 'no uncaught error on the page');
@@ -68,11 +69,23 @@ export async function settled(page) {
 /** Opens the page with a model as the bytes of an STL file. */
 export function withModel(site, bytes, work, options) {
   return withPage(site, { hash: SMALLEST, ...options }, async (page) => {
-    await dropFile(page, 'box.stl', bytes);
-    await shows(page, bytes.readUInt32LE(80).toLocaleString('en'));
-    await settled(page);
+    await openModel(page, bytes);
     await work(page);
   });
+}
+
+/** The same for all tests of a suite, and with what else they need. */
+export function sharedModel(site, bytes, options, prepare) {
+  return sharedPage(site, { hash: SMALLEST, ...options }, async (page) => {
+    await openModel(page, bytes);
+    await prepare(page);
+  });
+}
+
+async function openModel(page, bytes) {
+  await dropFile(page, 'box.stl', bytes);
+  await shows(page, bytes.readUInt32LE(80).toLocaleString('en'));
+  await settled(page);
 }
 
 /** Waits until the model has so many triangles or points, as they are written. */
