@@ -5,7 +5,8 @@ export interface Kept {
   readonly id: string;
   readonly name: string;
   readonly unit: Unit;
-  readonly bytes: Uint8Array;
+  /** Read when it is needed. */
+  readonly content: Blob;
   /** When it was opened last. */
   readonly time: number;
 }
@@ -18,7 +19,7 @@ const STORE = 'files';
 
 /** Whether the file is kept now; the one that is too large, or whose browser keeps nothing, is not. */
 export async function keep(file: Omit<Kept, 'time'>): Promise<boolean> {
-  if (file.bytes.length > MOST) return false;
+  if (file.content.size > MOST) return false;
   const isDone = await transact('readwrite', (files) => files.put({ ...file, time: Date.now() }));
   await makeRoom();
   return isDone !== undefined;
@@ -37,7 +38,7 @@ async function makeRoom(): Promise<void> {
   files.sort((a, b) => b.time - a.time);
   let bytes = 0;
   for (const file of files) {
-    bytes += file.bytes.length;
+    bytes += file.content.size;
     if (bytes > MOST_OF_ALL) await transact('readwrite', (store) => store.delete(file.id));
   }
 }

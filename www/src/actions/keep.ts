@@ -16,7 +16,8 @@ export function followFiles(page: Page): void {
 
 async function keepSource(page: Page, source: Source): Promise<void> {
   const { id, name, unit } = source;
-  const isKept = await keep({ id, name, unit, bytes: await source.read(new AbortController().signal) }).catch(() => false);
+  const content = async (): Promise<Blob> => new Blob([(await source.read(new AbortController().signal)) as Uint8Array<ArrayBuffer>]);
+  const isKept = await content().then((content) => keep({ id, name, unit, content }), () => false);
   if (page.source === source) page.store.set({ kept: isKept });
 }
 

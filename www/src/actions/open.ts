@@ -30,8 +30,8 @@ export function fileSource(file: File): Source {
 }
 
 /** A source for a file that the browser has kept. */
-export function keptSource({ id, name, unit, bytes }: Kept): Source {
-  return { id, name, unit, read: async () => bytes.slice() };
+export function keptSource({ id, name, unit, content }: Kept): Source {
+  return { id, name, unit, read: async () => new Uint8Array(await content.arrayBuffer()) };
 }
 
 /** By which a source is told from all others. */
