@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { describe, test } from 'node:test';
-import { boxObj, boxStl, sphereXyz } from './models.mjs';
+import { boxObj, boxStl, sphereStl, sphereXyz } from './models.mjs';
 import { contourAt, drawnPixels, dropFile, fact, number, openPage, outside, picture, sampleHeight, settled, sharedPage, shows, slide, withPage as onSite } from './page.mjs';
 import { serve } from './serve.mjs';
 import { served } from './site.mjs';
@@ -158,6 +158,43 @@ describe('the plane', () => {
       await page.waitForSelector('#plan-svg image', { state: 'detached' });
     }));
 });
+
+test('a large model is drawn once in each frame while it turns, twice when it rests, and nothing of it is sent again', () =>
+  withPage({ hash: '#sample=teapot' }, async (page) => {
+    const bytes = sphereStl(20, 230);
+    const triangles = bytes.readUInt32LE(80);
+    await page.setInputFiles('#file', { name: 'ball.stl', mimeType: 'model/stl', buffer: bytes });
+    await shows(page, triangles.toLocaleString('en'));
+    await settled(page);
+    await page.uncheck('[data-item=layer]');
+    const { frames, sent } = await page.evaluate(async () => {
+      const { prototype } = WebGL2RenderingContext;
+      const { drawElements, bufferData, bufferSubData } = prototype;
+      let [drawn, sent] = [0, 0];
+      prototype.drawElements = function (mode, count, ...rest) {
+        drawn += count / 3;
+        return drawElements.call(this, mode, count, ...rest);
+      };
+      prototype.bufferData = function (...values) {
+        sent++;
+        return bufferData.apply(this, values);
+      };
+      prototype.bufferSubData = function (...values) {
+        sent++;
+        return bufferSubData.apply(this, values);
+      };
+      document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }));
+      const frames = [];
+      while (frames.length < 2) {
+        await new Promise((resolve) => requestAnimationFrame(resolve));
+        if (drawn > 0) frames.push(drawn);
+        drawn = 0;
+      }
+      return { frames, sent };
+    });
+    assert.deepEqual(frames.map((count) => Math.round(count / triangles)), [1, 2]);
+    assert.equal(sent, 0);
+  }));
 
 describe('a page without a model', () => {
   test('says what to do, after the first one was cancelled or could not be had', async () => {
