@@ -40,6 +40,9 @@ import { Store } from './store.ts';
 import { startTheme } from './theme.ts';
 import type { View } from './view/view.ts';
 
+let view: View | undefined;
+startTheme(byId<HTMLButtonElement>('theme'), () => view?.refresh());
+await painted();
 let shown = (): void => undefined;
 void startOffline(new Promise<void>((resolve) => (shown = resolve)));
 const store = new Store<State>(initialState());
@@ -61,10 +64,16 @@ void startView();
 await startEngine();
 shown();
 
-/** Once the page itself is seen. Without WebGL 2 the rest of it still works. */
+/** Resolves when the page has been seen as it comes, before anything that takes long; a page out of sight does not wait for that. */
+function painted(): Promise<void> {
+  return new Promise((resolve) => {
+    requestAnimationFrame(() => setTimeout(resolve));
+    setTimeout(resolve, 200);
+  });
+}
+
+/** Without WebGL 2 the rest of the page still works. */
 async function startView(): Promise<void> {
-  let view: View | undefined;
-  startTheme(byId<HTMLButtonElement>('theme'), () => view?.refresh());
   try {
     const { View } = await import('./view/view.ts');
     view = new View(store);
