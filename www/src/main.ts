@@ -40,6 +40,9 @@ import { Store } from './store.ts';
 import { startTheme } from './theme.ts';
 import type { View } from './view/view.ts';
 
+/** The longest that anything waits for the page to be seen. */
+const PATIENCE_MILLISECONDS = 300;
+
 let view: View | undefined;
 startTheme(byId<HTMLButtonElement>('theme'), () => view?.refresh());
 await painted();
@@ -64,11 +67,11 @@ void startView();
 await startEngine();
 shown();
 
-/** Resolves when the page has been seen as it comes, before anything that takes long; a page out of sight does not wait for that. */
+/** Resolves when the page is seen as it comes, before anything that keeps the graphics card busy; a page out of sight does not wait for that. */
 function painted(): Promise<void> {
   return new Promise((resolve) => {
-    requestAnimationFrame(() => setTimeout(resolve));
-    setTimeout(resolve, 200);
+    new PerformanceObserver(() => resolve()).observe({ type: 'paint', buffered: true });
+    setTimeout(resolve, PATIENCE_MILLISECONDS);
   });
 }
 
