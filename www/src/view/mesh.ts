@@ -48,7 +48,7 @@ export interface Movable {
   release(): void;
 }
 
-/** In motion both sides are drawn at once; the backs then show as specks along silhouettes, which nobody sees in motion. */
+/** In motion both sides are drawn at once; the backs then show as specks along silhouettes, which motion hides. */
 function simplify(front: Mesh<BufferGeometry, MeshStandardMaterial>, back: Mesh, both: MeshStandardMaterial): void {
   const own = front.material;
   const movable: Movable = {
