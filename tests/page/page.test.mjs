@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { describe, test } from 'node:test';
-import { boxObj, boxStl, sphereStl, sphereXyz } from './models.mjs';
-import { contourAt, drawnPixels, dropFile, fact, number, openPage, outside, picture, sampleHeight, settled, sharedPage, shows, slide, withPage as onSite } from './page.mjs';
+import { boxObj, boxStl, sphereStl } from './models.mjs';
+import { contourAt, drawnPixels, dropFile, fact, number, openPage, sampleHeight, settled, sharedPage, shows, slide, withPage as onSite } from './page.mjs';
 import { serve } from './serve.mjs';
 import { served } from './site.mjs';
 
@@ -307,89 +307,6 @@ describe('the surface', () => {
     }));
 });
 
-describe('a cloud', () => {
-  test('with normals has a layer at once', () =>
-    withPage({}, async (page) => {
-      await page.selectOption('#sample', 'dragon-points.ply');
-      await page.waitForFunction(() => document.querySelector('#facts dt').textContent === 'Points');
-      await settled(page);
-      assert.equal(await fact(page, 'facts', 'Normals'), 'yes');
-      assert.ok((await number(page, 'layer-facts', 'Area')) > 500);
-    }));
-
-  test('without normals offers to estimate them, warns, and then has an inside', () =>
-    withPage({}, async (page) => {
-      await dropFile(page, 'ball.xyz', sphereXyz(4000, 10));
-      await page.waitForSelector('#orient:visible');
-      assert.equal(await fact(page, 'facts', 'Normals'), 'missing');
-      assert.ok(await page.isDisabled('#voxelize'));
-      await page.click('#orient');
-      await page.waitForSelector('#orient-block', { state: 'hidden' });
-      await settled(page);
-      assert.ok((await page.locator('#warnings li').count()) > 0, 'estimated normals come with a warning');
-      const area = await number(page, 'layer-facts', 'Area');
-      assert.ok(Math.abs(area / (Math.PI * 100) - 1) < 0.03, `the middle of the ball is ${Math.PI * 100} mm², got ${area}`);
-    }));
-
-  test('shows normals while they settle, and stops when told to', () =>
-    withPage({}, async (page) => {
-      // So many that the job lasts longer than looking at it.
-      await dropFile(page, 'ball.xyz', sphereXyz(150_000, 10));
-      await page.waitForSelector('#orient:visible');
-      const before = await picture(page);
-      await page.click('#orient');
-      await page.waitForFunction(() => document.getElementById('job-progress').value > 0.05);
-      assert.notEqual(await picture(page), before, 'the points are shaded before the job ends');
-      assert.ok(await page.isVisible('#job'));
-      await page.keyboard.press('Escape');
-      await page.waitForSelector('#job', { state: 'hidden' });
-      assert.equal(await fact(page, 'facts', 'Normals'), 'missing');
-      await page.waitForTimeout(200);
-      assert.equal(await picture(page), before, 'the points look as before');
-      await page.selectOption('#orient-method', 'propagation');
-      await page.click('#orient');
-      await page.waitForSelector('#orient-block', { state: 'hidden' });
-      await settled(page);
-      assert.equal(await fact(page, 'facts', 'Normals'), 'yes');
-    }));
-
-  test('is coloured by the area of points and the noise around them, and shown beside its surface', () =>
-    withPage({}, async (page) => {
-      await dropFile(page, 'ball.xyz', sphereXyz(4000, 10));
-      await page.waitForSelector('#orient:visible');
-      assert.ok(await page.isHidden('#measure-legend'));
-      const plain = await picture(page);
-      await page.selectOption('#measure', 'noise');
-      await page.waitForSelector('#measure-legend:not([hidden])');
-      assert.match(await page.textContent('#measure-high'), / mm$/);
-      assert.notEqual(await picture(page), plain);
-      assert.ok(await page.isDisabled('#halves'));
-      await page.click('#orient');
-      await page.waitForSelector('#orient-block', { state: 'hidden' });
-      await settled(page);
-      await page.selectOption('#measure', 'area');
-      await page.waitForFunction(() => document.getElementById('measure-high').textContent.endsWith(' mm²'));
-      const [low, high] = await Promise.all(['#measure-low', '#measure-high'].map(async (id) => parseFloat(await page.textContent(id))));
-      const each = (4 * Math.PI * 100) / 4000;
-      assert.ok(low <= 1.05 * each && high >= 0.95 * each && high < 2 * each, `${low} to ${high} mm² for ${each}`);
-      await page.selectOption('#measure', '');
-      assert.ok(await page.isHidden('#measure-legend'));
-      await page.click('#surface');
-      await settled(page);
-      const whole = await picture(page);
-      await page.click('#halves');
-      assert.equal(await page.getAttribute('#halves', 'aria-pressed'), 'true');
-      assert.deepEqual(await page.locator('#half-names span').allTextContents(), ['Model', 'Surface']);
-      assert.notEqual(await picture(page), whole);
-      await page.click('#halves');
-      await page.waitForTimeout(200);
-      assert.equal(await picture(page), whole);
-      await page.selectOption('#sample', 'teapot.obj');
-      await settled(page);
-      assert.ok(await page.isHidden('#measure-field'));
-    }));
-});
-
 describe('without cross-origin isolation', () => {
   test('the page works on one thread, says why, and survives a cancel', async () => {
     const plain = await serve({ isolated: false });
@@ -434,84 +351,6 @@ describe('an engine that dies', () => {
       await page.waitForSelector('#voxel-facts dd');
     }));
 });
-
-describe('the keyboard', () => {
-  const onPage = sharedPage(site);
-
-  test('reaches every control, and each has a name and shows that it is reached', () =>
-    onPage(async (page) => {
-      const reached = new Set();
-      const nameless = [];
-      const unseen = [];
-      for (let press = 0; press < 160; press++) {
-        await page.keyboard.press('Tab');
-        const { id, name, isSeen } = await page.evaluate(() => {
-          const element = document.activeElement;
-          const name = element.getAttribute('aria-label') || element.labels?.[0]?.textContent || element.textContent;
-          // A radio button of a segmented control has its outline around its text.
-          const isSeen = [element, element.nextElementSibling].some((part) => part && getComputedStyle(part).outlineStyle !== 'none');
-          return { id: element.id || element.dataset.item || element.dataset.view, name: name.trim(), isSeen };
-        });
-        if (id) reached.add(id);
-        if (id && !name) nameless.push(id);
-        if (id && !isSeen) unseen.push(id);
-      }
-      assert.deepEqual([nameless, unseen], [[], []]);
-      for (const id of ['theme', 'sample', 'choose', 'model', 'check', 'repair', 'voxel-resolution', 'voxelize', 'surface', 'offset', 'second-choose', 'print-density', 'prepare', 'canvas', 'fit', 'layer-slider', 'heat', 'distance']) {
-        assert.ok(reached.has(id), `Tab reaches ${id}`);
-      }
-    }));
-
-  test('moves the plane by single layers', () =>
-    onPage(async (page) => {
-      await page.focus('#layer-slider');
-      await page.keyboard.press('ArrowRight');
-      assert.equal(await page.textContent('#layer-out'), 'layer 156 of 309');
-      assert.match(await page.getAttribute('#layer-slider', 'aria-valuetext'), /^layer 156 of 309, z 110\.7 millimetres$/);
-    }));
-
-  test('turns the view', () =>
-    onPage(async (page) => {
-      const axes = () => page.innerHTML('#axes');
-      await page.focus('#canvas');
-      const before = await axes();
-      await page.keyboard.press('ArrowLeft');
-      await page.waitForFunction((before) => document.getElementById('axes').innerHTML !== before, before);
-    }));
-});
-
-describe('the layout', () => {
-  test('fits 390 to 2560 px without scrolling sideways', () =>
-    withPage({ width: 390, height: 844 }, async (page) => {
-      await page.check('#heat');
-      await page.waitForSelector('#legend:not([hidden])');
-      for (const width of [390, 768, 1024, 1600, 2560]) {
-        await page.setViewportSize({ width, height: 844 });
-        const sideways = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
-        assert.equal(sideways, 0, `${width} px`);
-        assert.deepEqual(await outside(page), [], `${width} px`);
-      }
-    }));
-
-  test('follows the system into the dark, and the button leads out', async () => {
-    const context = await site.browser.newContext({ colorScheme: 'dark' });
-    const page = await context.newPage();
-    await page.goto(site.server.url);
-    const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-    const dark = await paper();
-    await page.click('#theme');
-    const light = await paper();
-    assert.ok(luminance(dark) < 40 && luminance(light) > 200, `${dark} and ${light}`);
-    await page.reload();
-    assert.equal(await paper(), light, 'the choice is remembered');
-    await context.close();
-  });
-});
-
-function luminance(colour) {
-  const [red, green, blue] = colour.match(/\d+/g).map(Number);
-  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-}
 
 /** Notes each label that the progress card shows from now on. */
 async function watchJobs(page) {
