@@ -10,10 +10,10 @@ const site = served();
 
 const isIsolated = (page) => page.evaluate(() => crossOriginIsolated);
 
-/** Waits until something holds on the page, which may be a promise there. */
+/** Waits until something holds on the page, which may be a promise there, and which the page may be loaded again before. */
 async function until(page, holds) {
   for (let tries = 0; tries < 600; tries++) {
-    if (await page.evaluate(holds)) return;
+    if (await page.evaluate(holds).catch(() => false)) return;
     await page.waitForTimeout(50);
   }
   assert.fail(`never: ${holds}`);
