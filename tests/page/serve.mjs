@@ -39,6 +39,8 @@ export async function serve({ isolated = true, headers = isolated ? ISOLATION : 
     else response.end(bytes);
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  // A test that fails may leave it open.
+  server.unref();
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
     close: () => {
