@@ -1,4 +1,5 @@
 import { defineConfig } from 'vite';
+import { offline } from './offline/plugin.ts';
 import { samples } from './samples/plugin.ts';
 
 /** Cross-origin isolation: without it there is no shared memory, and so no threads. */
@@ -9,7 +10,7 @@ const isolation = {
 
 export default defineConfig({
   base: './',
-  plugins: [samples()],
+  plugins: [samples(), offline()],
   // The package starts its worker by a URL next to its own code, which a pre-bundled copy would lose.
   optimizeDeps: { exclude: ['fast-winding'] },
   build: { target: 'esnext', chunkSizeWarningLimit: 900 },

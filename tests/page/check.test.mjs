@@ -2,28 +2,20 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { SIDES, boxStl, sphereXyz } from './models.mjs';
-import { dropFile, fact, number, openPage, outside, picture, saved, settled } from './page.mjs';
+import { dropFile, fact, number, openPage, outside, picture, saved, settled, withModel } from './page.mjs';
 import { served } from './site.mjs';
 
 const site = served();
 
 const [LOW, HIGH] = [[0, 0, 0], [40, 30, 20]];
 
-/** A page that shows a box of so many triangles, with its report, which small models get by themselves. */
-async function withBox(faults, work, size) {
-  const page = await openPage(site.browser, site.server.url, size);
-  try {
-    const bytes = boxStl(LOW, HIGH, faults);
-    await dropFile(page, 'box.stl', bytes);
-    const triangles = String(bytes.readUInt32LE(80));
-    await page.waitForFunction((triangles) => document.querySelector('#facts dd').textContent === triangles, triangles);
-    await settled(page);
+/** A page that shows a box with its report, which small models get by themselves. */
+function withBox(faults, work, size) {
+  const shown = async (page) => {
     await page.waitForSelector('#verdict:not([hidden])');
     await work(page);
-    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
-  } finally {
-    await page.context().close();
-  }
+  };
+  return withModel(site, boxStl(LOW, HIGH, faults), shown, size);
 }
 
 function figureOf(page, defect) {
@@ -127,7 +119,7 @@ describe('the check', () => {
     }));
 
   test('is of models with faces alone', async () => {
-    const page = await openPage(site.browser, site.server.url);
+    const page = await openPage(site.browser, site.server.url, { hash: '#sample=teapot' });
     try {
       await dropFile(page, 'ball.xyz', sphereXyz(2000, 10));
       await page.waitForSelector('#orient:visible');

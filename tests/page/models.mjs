@@ -31,6 +31,13 @@ export function boxStl(min, max, { without = [], flipped = [] } = {}) {
   return stl(triangles.map((corners) => corners.map((bits) => boxCorner(min, max, bits))));
 }
 
+/** The triangles of several binary STL files in one. */
+export function together(...files) {
+  const count = Buffer.alloc(4);
+  count.writeUInt32LE(files.reduce((sum, file) => sum + file.readUInt32LE(80), 0));
+  return Buffer.concat([Buffer.alloc(80), count, ...files.map((file) => file.subarray(84))]);
+}
+
 /** Binary STL of triangles given by their corners. */
 function stl(triangles) {
   const bytes = Buffer.alloc(84 + 50 * triangles.length);

@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { describe, test } from 'node:test';
-import { boxObj, boxStl, sphereXyz } from './models.mjs';
-import { contourAt, drawnPixels, dropFile, fact, number, openPage, outside, picture, sampleHeight, settled, slide } from './page.mjs';
+import { boxObj, boxStl, sphereStl } from './models.mjs';
+import { contourAt, drawnPixels, dropFile, fact, number, openPage, sampleHeight, settled, sharedPage, shows, slide, withPage as onSite } from './page.mjs';
 import { serve } from './serve.mjs';
 import { served } from './site.mjs';
 
@@ -11,19 +11,13 @@ const site = served();
 /** A box of 40 × 30 × 20 mm: its layers have an area of 1,200 mm² and a perimeter of 140 mm. */
 const BOX = boxStl([0, 0, 0], [40, 30, 20]);
 
-async function withPage(options, work) {
-  const page = await openPage(site.browser, site.server.url, options);
-  try {
-    await work(page);
-    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
-  } finally {
-    await page.context().close();
-  }
-}
+const withPage = (options, work) => onSite(site, options, work);
 
 describe('the sample', () => {
+  const onPage = sharedPage(site);
+
   test('is shown at once with its counts, its size and its open edges', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       assert.equal(await fact(page, 'facts', 'Triangles'), '69,451');
       assert.equal(await fact(page, 'facts', 'Boundary edges'), '223');
       assert.equal(await fact(page, 'facts', 'Size'), '155.7 × 120.7 × 154.3 mm');
@@ -32,7 +26,7 @@ describe('the sample', () => {
     }));
 
   test('runs on threads and says how many', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       const threads = await number(page, 'engine-facts', 'Threads');
       const processors = await page.evaluate(() => navigator.hardwareConcurrency);
       assert.ok(threads >= Math.min(2, processors) && threads <= processors, `${threads} threads on ${processors} processors`);
@@ -41,18 +35,20 @@ describe('the sample', () => {
     }));
 
   test('of the menu replaces the one before', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await page.selectOption('#sample', 'teapot.obj');
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '992');
+      await shows(page, '992');
       assert.equal(await fact(page, 'facts', 'Format'), 'OBJ');
     }));
 });
 
 describe('a dropped file', () => {
+  const onPage = sharedPage(site, { hash: '#sample=teapot' });
+
   test('is measured, cut and drawn', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       assert.equal(await fact(page, 'facts', 'Size'), '40 × 30 × 20 mm');
       assert.equal(await fact(page, 'facts', 'Boundary edges'), 'none, it is closed');
@@ -64,9 +60,9 @@ describe('a dropped file', () => {
     }));
 
   test('far from the origin is cut and drawn as well as one near it', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'survey.obj', boxObj([500_000, 4_000_000, 100], [500_040, 4_000_030, 120]));
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       assert.equal(await fact(page, 'facts', 'Size'), '40 × 30 × 20 mm');
       assert.ok(Math.abs((await number(page, 'layer-facts', 'Area')) - 1200) < 1);
@@ -74,9 +70,9 @@ describe('a dropped file', () => {
     }));
 
   test('in metres is made larger, and what is too large for a printer is warned of', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       assert.equal(await page.locator('#warnings li').count(), 0);
       await page.selectOption('#unit', 'meter');
@@ -100,7 +96,7 @@ describe('a dropped file', () => {
     }));
 
   test('that is cut short is told, whatever its length', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'cut.stl', BOX.subarray(0, 90));
       await page.waitForSelector('#problem:not([hidden])');
       assert.equal(await page.textContent('#problem-title'), 'cut.stl could not be opened');
@@ -108,8 +104,19 @@ describe('a dropped file', () => {
 });
 
 describe('the plane', () => {
+  const onPage = sharedPage(site);
+
+  test('is saved as SVG', () =>
+    onPage(async (page) => {
+      const [file] = await Promise.all([page.waitForEvent('download'), page.click('#layer-download')]);
+      assert.match(file.suggestedFilename(), /^bunny-z.*\.svg$/);
+      const text = await readFile(await file.path(), 'utf8');
+      assert.match(text, /<svg[^>]*>/);
+      assert.match(text, /<path|<polygon/);
+    }));
+
   test('moves its contour, and follows a fast slider to its last place', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       const before = await contourAt(page, sampleHeight(154));
       for (let index = 30; index <= 60; index++) await slide(page, '#layer-slider', index);
       const after = await contourAt(page, sampleHeight(60));
@@ -122,20 +129,20 @@ describe('the plane', () => {
     }));
 
   test('keeps its height when the layer height changes', () =>
-    withPage({}, async (page) => {
-      assert.equal(await page.textContent('#layer-out'), 'layer 155 of 309');
+    onPage(async (page) => {
+      assert.equal(await page.textContent('#layer-out'), 'layer 61 of 309');
       await page.fill('#layer-height', '1');
       await page.press('#layer-height', 'Enter');
-      assert.equal(await page.textContent('#layer-out'), 'layer 78 of 155');
+      assert.equal(await page.textContent('#layer-out'), 'layer 31 of 155');
       await page.fill('#layer-height', '-3');
       await page.press('#layer-height', 'Enter');
       assert.equal(await page.inputValue('#layer-height'), '1', 'a height that makes no sense is taken back');
     }));
 
   test('shows w as colours, 1 in the middle of a box and 0 beside it', () =>
-    withPage({}, async (page) => {
+    onPage(async (page) => {
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       await page.check('#heat');
       await page.waitForSelector('#plan-svg image', { state: 'attached' });
@@ -150,22 +157,86 @@ describe('the plane', () => {
       await page.uncheck('#heat');
       await page.waitForSelector('#plan-svg image', { state: 'detached' });
     }));
+});
 
-  test('is saved as SVG', () =>
-    withPage({}, async (page) => {
-      const [file] = await Promise.all([page.waitForEvent('download'), page.click('#layer-download')]);
-      assert.match(file.suggestedFilename(), /^bunny-z.*\.svg$/);
-      const text = await readFile(await file.path(), 'utf8');
-      assert.match(text, /<svg[^>]*>/);
-      assert.match(text, /<path|<polygon/);
-    }));
+test('a large model is drawn once in each frame while it turns, twice when it rests, and nothing of it is sent again', () =>
+  withPage({ hash: '#sample=teapot' }, async (page) => {
+    const bytes = sphereStl(20, 230);
+    const triangles = bytes.readUInt32LE(80);
+    await page.setInputFiles('#file', { name: 'ball.stl', mimeType: 'model/stl', buffer: bytes });
+    await shows(page, triangles.toLocaleString('en'));
+    await settled(page);
+    await page.uncheck('[data-item=layer]');
+    const { frames, sent } = await page.evaluate(async () => {
+      const { prototype } = WebGL2RenderingContext;
+      const { drawElements, bufferData, bufferSubData } = prototype;
+      let [drawn, sent] = [0, 0];
+      prototype.drawElements = function (mode, count, ...rest) {
+        drawn += count / 3;
+        return drawElements.call(this, mode, count, ...rest);
+      };
+      prototype.bufferData = function (...values) {
+        sent++;
+        return bufferData.apply(this, values);
+      };
+      prototype.bufferSubData = function (...values) {
+        sent++;
+        return bufferSubData.apply(this, values);
+      };
+      document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }));
+      const frames = [];
+      while (frames.length < 2) {
+        await new Promise((resolve) => requestAnimationFrame(resolve));
+        if (drawn > 0) frames.push(drawn);
+        drawn = 0;
+      }
+      return { frames, sent };
+    });
+    assert.deepEqual(frames.map((count) => Math.round(count / triangles)), [1, 2]);
+    assert.equal(sent, 0);
+  }));
+
+describe('a page without a model', () => {
+  test('says what to do, after the first one was cancelled or could not be had', async () => {
+    const context = await site.browser.newContext({ serviceWorkers: 'block' });
+    const page = await context.newPage();
+    let fail;
+    const isAsked = new Promise((asked) => {
+      void page.route('**/samples/teapot.obj', (route) => {
+        fail = () => route.abort();
+        asked();
+      });
+    });
+    await page.goto(`${site.server.url}#sample=teapot`);
+    await isAsked;
+    assert.equal(await page.textContent('#job-label'), 'Opening teapot.obj');
+    assert.ok(await page.isHidden('#empty'));
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('#empty:not([hidden])');
+    assert.equal(await page.textContent('#note'), 'Opening teapot.obj: cancelled');
+    assert.ok(await page.isHidden('#problem'));
+    for (const button of ['check', 'repair', 'voxelize', 'surface', 'offset', 'texture', 'prepare', 'halves']) assert.ok(await page.isDisabled(`#${button}`), button);
+
+    fail = undefined;
+    await page.reload();
+    while (!fail) await page.waitForTimeout(20);
+    await fail();
+    await page.waitForSelector('#problem:not([hidden])');
+    assert.equal(await page.textContent('#problem-title'), 'teapot.obj could not be opened');
+    assert.match(await page.textContent('#problem-detail'), /^The server does not answer, .*\.$/);
+    assert.ok(await page.isVisible('#empty'));
+    await page.selectOption('#sample', 'dragon-points.ply');
+    await settled(page);
+    assert.ok(await page.isHidden('#empty'));
+    await context.close();
+  });
 });
 
 describe('long work', () => {
   test('shows progress and ends in voxels whose volume is the box', () =>
     withPage({}, async (page) => {
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       await watchJobs(page);
       await page.click('#voxelize');
@@ -236,89 +307,6 @@ describe('the surface', () => {
     }));
 });
 
-describe('a cloud', () => {
-  test('with normals has a layer at once', () =>
-    withPage({}, async (page) => {
-      await page.selectOption('#sample', 'dragon-points.ply');
-      await page.waitForFunction(() => document.querySelector('#facts dt').textContent === 'Points');
-      await settled(page);
-      assert.equal(await fact(page, 'facts', 'Normals'), 'yes');
-      assert.ok((await number(page, 'layer-facts', 'Area')) > 500);
-    }));
-
-  test('without normals offers to estimate them, warns, and then has an inside', () =>
-    withPage({}, async (page) => {
-      await dropFile(page, 'ball.xyz', sphereXyz(4000, 10));
-      await page.waitForSelector('#orient:visible');
-      assert.equal(await fact(page, 'facts', 'Normals'), 'missing');
-      assert.ok(await page.isDisabled('#voxelize'));
-      await page.click('#orient');
-      await page.waitForSelector('#orient-block', { state: 'hidden' });
-      await settled(page);
-      assert.ok((await page.locator('#warnings li').count()) > 0, 'estimated normals come with a warning');
-      const area = await number(page, 'layer-facts', 'Area');
-      assert.ok(Math.abs(area / (Math.PI * 100) - 1) < 0.03, `the middle of the ball is ${Math.PI * 100} mm², got ${area}`);
-    }));
-
-  test('shows normals while they settle, and stops when told to', () =>
-    withPage({}, async (page) => {
-      // So many that the job lasts longer than looking at it.
-      await dropFile(page, 'ball.xyz', sphereXyz(150_000, 10));
-      await page.waitForSelector('#orient:visible');
-      const before = await picture(page);
-      await page.click('#orient');
-      await page.waitForFunction(() => document.getElementById('job-progress').value > 0.05);
-      assert.notEqual(await picture(page), before, 'the points are shaded before the job ends');
-      assert.ok(await page.isVisible('#job'));
-      await page.keyboard.press('Escape');
-      await page.waitForSelector('#job', { state: 'hidden' });
-      assert.equal(await fact(page, 'facts', 'Normals'), 'missing');
-      await page.waitForTimeout(200);
-      assert.equal(await picture(page), before, 'the points look as before');
-      await page.selectOption('#orient-method', 'propagation');
-      await page.click('#orient');
-      await page.waitForSelector('#orient-block', { state: 'hidden' });
-      await settled(page);
-      assert.equal(await fact(page, 'facts', 'Normals'), 'yes');
-    }));
-
-  test('is coloured by the area of points and the noise around them, and shown beside its surface', () =>
-    withPage({}, async (page) => {
-      await dropFile(page, 'ball.xyz', sphereXyz(4000, 10));
-      await page.waitForSelector('#orient:visible');
-      assert.ok(await page.isHidden('#measure-legend'));
-      const plain = await picture(page);
-      await page.selectOption('#measure', 'noise');
-      await page.waitForSelector('#measure-legend:not([hidden])');
-      assert.match(await page.textContent('#measure-high'), / mm$/);
-      assert.notEqual(await picture(page), plain);
-      assert.ok(await page.isDisabled('#halves'));
-      await page.click('#orient');
-      await page.waitForSelector('#orient-block', { state: 'hidden' });
-      await settled(page);
-      await page.selectOption('#measure', 'area');
-      await page.waitForFunction(() => document.getElementById('measure-high').textContent.endsWith(' mm²'));
-      const [low, high] = await Promise.all(['#measure-low', '#measure-high'].map(async (id) => parseFloat(await page.textContent(id))));
-      const each = (4 * Math.PI * 100) / 4000;
-      assert.ok(low <= 1.05 * each && high >= 0.95 * each && high < 2 * each, `${low} to ${high} mm² for ${each}`);
-      await page.selectOption('#measure', '');
-      assert.ok(await page.isHidden('#measure-legend'));
-      await page.click('#surface');
-      await settled(page);
-      const whole = await picture(page);
-      await page.click('#halves');
-      assert.equal(await page.getAttribute('#halves', 'aria-pressed'), 'true');
-      assert.deepEqual(await page.locator('#half-names span').allTextContents(), ['Model', 'Surface']);
-      assert.notEqual(await picture(page), whole);
-      await page.click('#halves');
-      await page.waitForTimeout(200);
-      assert.equal(await picture(page), whole);
-      await page.selectOption('#sample', 'teapot.obj');
-      await settled(page);
-      assert.ok(await page.isHidden('#measure-field'));
-    }));
-});
-
 describe('without cross-origin isolation', () => {
   test('the page works on one thread, says why, and survives a cancel', async () => {
     const plain = await serve({ isolated: false });
@@ -363,80 +351,6 @@ describe('an engine that dies', () => {
       await page.waitForSelector('#voxel-facts dd');
     }));
 });
-
-describe('the keyboard', () => {
-  test('reaches every control, and each has a name', () =>
-    withPage({}, async (page) => {
-      const reached = new Set();
-      const nameless = [];
-      for (let press = 0; press < 160; press++) {
-        await page.keyboard.press('Tab');
-        const { id, name } = await page.evaluate(() => {
-          const element = document.activeElement;
-          const name = element.getAttribute('aria-label') || element.labels?.[0]?.textContent || element.textContent;
-          return { id: element.id || element.dataset.item || element.dataset.view, name: name.trim() };
-        });
-        if (id) reached.add(id);
-        if (id && !name) nameless.push(id);
-      }
-      assert.deepEqual(nameless, []);
-      for (const id of ['theme', 'sample', 'choose', 'model', 'check', 'repair', 'voxel-resolution', 'voxelize', 'surface', 'offset', 'second-choose', 'print-density', 'prepare', 'canvas', 'fit', 'layer-slider', 'heat', 'distance']) {
-        assert.ok(reached.has(id), `Tab reaches ${id}`);
-      }
-    }));
-
-  test('moves the plane by single layers', () =>
-    withPage({}, async (page) => {
-      await page.focus('#layer-slider');
-      await page.keyboard.press('ArrowRight');
-      assert.equal(await page.textContent('#layer-out'), 'layer 156 of 309');
-      assert.match(await page.getAttribute('#layer-slider', 'aria-valuetext'), /^layer 156 of 309, z 110\.7 millimetres$/);
-    }));
-
-  test('turns the view', () =>
-    withPage({}, async (page) => {
-      const axes = () => page.innerHTML('#axes');
-      await page.focus('#canvas');
-      const before = await axes();
-      await page.keyboard.press('ArrowLeft');
-      await page.waitForFunction((before) => document.getElementById('axes').innerHTML !== before, before);
-    }));
-});
-
-describe('the layout', () => {
-  for (const width of [390, 768, 1024, 1600]) {
-    test(`fits ${width} px without scrolling sideways`, () =>
-      withPage({ width, height: 844 }, async (page) => {
-        await page.check('#heat');
-        await page.waitForSelector('#legend:not([hidden])');
-        const { scroll, client } = await page.evaluate(() => ({
-          scroll: document.documentElement.scrollWidth,
-          client: document.documentElement.clientWidth,
-        }));
-        assert.equal(scroll, client);
-        assert.deepEqual(await outside(page), []);
-      }));
-  }
-
-  test('follows the system into the dark, and the button leads out', async () => {
-    const context = await site.browser.newContext({ colorScheme: 'dark' });
-    const page = await context.newPage();
-    await page.goto(site.server.url);
-    const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-    const dark = await paper();
-    await page.click('#theme');
-    const light = await paper();
-    assert.ok(luminance(dark) < 40 && luminance(light) > 200, `${dark} and ${light}`);
-    await page.reload();
-    assert.equal(await paper(), light, 'the choice is remembered');
-    await context.close();
-  });
-});
-
-function luminance(colour) {
-  const [red, green, blue] = colour.match(/\d+/g).map(Number);
-  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-}
 
 /** Notes each label that the progress card shows from now on. */
 async function watchJobs(page) {

@@ -18,21 +18,29 @@ const ISOLATION = {
   'Cross-Origin-Embedder-Policy': 'require-corp',
 };
 
-/** Resolves to the page's URL and a function that ends the server. */
-export async function serve({ isolated = true } = {}) {
+/**
+ * Resolves to the page's URL and a function that ends the server. `edit` may give other bytes for a path, or wait with its own; `headers`
+ * are for every answer.
+ */
+export async function serve({ isolated = true, headers = isolated ? ISOLATION : {}, edit } = {}) {
   if (!existsSync(DIST)) throw new Error('the page is not built: run npm --prefix www run build');
-  const server = createServer((request, response) => {
-    const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
-    const file = join(DIST, path === '/' ? 'index.html' : path);
+  const server = createServer(async (request, response) => {
+    const asked = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
+    const path = asked === '/' ? '/index.html' : asked;
+    const file = join(DIST, path);
     const isFile = statSync(file, { throwIfNoEntry: false })?.isFile();
     if (!isFile) return response.writeHead(404).end();
     response.writeHead(200, {
       'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream',
-      ...(isolated ? ISOLATION : {}),
+      ...headers,
     });
-    createReadStream(file).pipe(response);
+    const bytes = await edit?.(path, file);
+    if (bytes === undefined) createReadStream(file).pipe(response);
+    else response.end(bytes);
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  // A test that fails may leave it open.
+  server.unref();
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
     close: () => {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { boxStl } from './models.mjs';
-import { dropFile, fact, openPage, outside, picture, saved as savedBytes, settled, slide } from './page.mjs';
+import { dropFile, fact, openPage, outside, picture, saved as savedBytes, settled, shows, slide, withModel } from './page.mjs';
 import { served } from './site.mjs';
 
 const site = served();
@@ -11,17 +11,8 @@ const site = served();
 const BOX = boxStl([0, 0, 0], [20, 20, 4]);
 
 /** A page that shows the box, or another model of 12 triangles. */
-async function withBox(work, { bytes = BOX, ...size } = {}) {
-  const page = await openPage(site.browser, site.server.url, size);
-  try {
-    await dropFile(page, 'box.stl', bytes);
-    await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
-    await settled(page);
-    await work(page);
-    assert.deepEqual(page.errors, [], 'no uncaught error on the page');
-  } finally {
-    await page.context().close();
-  }
+function withBox(work, { bytes = BOX, ...size } = {}) {
+  return withModel(site, bytes, work, size);
 }
 
 async function prepare(page) {
@@ -159,7 +150,7 @@ describe('a print', () => {
     withBox(async (page) => {
       await prepare(page);
       await page.selectOption('#sample', 'teapot.obj');
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '992');
+      await shows(page, '992');
       assert.ok(await page.isHidden('#print-dock'));
       assert.equal(await page.locator('#print-facts dd').count(), 0);
       assert.ok(await page.isDisabled('#gcode-download'));
@@ -175,7 +166,7 @@ describe('a print', () => {
       assert.ok(await page.isHidden('#problem'), 'cancelling is no error');
       assert.equal(await page.locator('#print-facts dd').count(), 0);
       await dropFile(page, 'box.stl', BOX);
-      await page.waitForFunction(() => document.querySelector('#facts dd').textContent === '12');
+      await shows(page, '12');
       await settled(page);
       await prepare(page);
       assert.deepEqual(page.errors, []);

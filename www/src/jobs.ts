@@ -6,6 +6,8 @@ import type { Store } from './store.ts';
 export class Jobs {
   readonly #store: Store<State>;
   #running?: { controller: AbortController; settled: Promise<unknown> };
+  /** The label of what the person has cancelled. */
+  #cancelled?: string;
 
   constructor(store: Store<State>) {
     this.#store = store;
@@ -26,7 +28,7 @@ export class Jobs {
     const result = work({
       signal: controller.signal,
       onProgress: (fraction, stage) => {
-        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction, canCancel: true } });
+        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction: Number.isFinite(fraction) ? fraction : undefined, canCancel: true } });
       },
     });
     const running = { controller, settled: result.catch(() => undefined) };
@@ -35,7 +37,9 @@ export class Jobs {
       return await result;
     } finally {
       this.#running = undefined;
-      this.#store.set({ job: undefined });
+      const note = this.#cancelled ? { note: `${this.#cancelled}: cancelled` } : {};
+      this.#cancelled = undefined;
+      this.#store.set({ job: undefined, ...note });
     }
   }
 
@@ -43,6 +47,7 @@ export class Jobs {
     const job = this.#store.state.job;
     if (!job || !this.#running) return;
     this.#running.controller.abort();
+    this.#cancelled = job.label;
     this.#store.set({ job: { ...job, stage: 'stopping', fraction: undefined, canCancel: false } });
   }
 }

@@ -1,17 +1,20 @@
 import './style/index.css';
-import { SAMPLES } from '../samples/catalogue.ts';
+import { followAddress } from './actions/address.ts';
 import { followModel } from './actions/check.ts';
+import { followFiles } from './actions/keep.ts';
 import { followPlane } from './actions/layer.ts';
-import { open, sampleSource } from './actions/open.ts';
 import { followRecipe } from './actions/print.ts';
+import { addressOf } from './address.ts';
+import { followResults } from './actions/results.ts';
 import { byId } from './dom.ts';
 import { startPage } from './page.ts';
+import { startOffline } from './offline.ts';
 import { checkPanel } from './panels/check.ts';
 import { combinePanel } from './panels/combine.ts';
 import { distanceLegend } from './panels/distance-legend.ts';
 import { dock } from './panels/dock.ts';
 import { enginePanel, fieldButton } from './panels/engine.ts';
-import { folds } from './panels/folds.ts';
+import { folds, showTool } from './panels/folds.ts';
 import { jobControls, showJob } from './panels/job.ts';
 import { layerPanel } from './panels/layer.ts';
 import { legendPanel } from './panels/legend.ts';
@@ -19,11 +22,14 @@ import { modelControls, showModelFacts } from './panels/model.ts';
 import { halvesButton } from './panels/halves.ts';
 import { movesPanel } from './panels/moves.ts';
 import { offsetPanel } from './panels/offset.ts';
+import { notes } from './panels/note.ts';
+import { followOptions } from './panels/options.ts';
 import { planPanel } from './panels/plan.ts';
 import { measureLegend, pointControls } from './panels/points.ts';
 import { printPanel } from './panels/print.ts';
 import { problemPanel } from './panels/problem.ts';
 import { repairPanel } from './panels/repair.ts';
+import { resultsPanel } from './panels/results.ts';
 import { showPanel } from './panels/show.ts';
 import { surfacePanel, voxelPanel } from './panels/solid.ts';
 import { texturePanel } from './panels/texture.ts';
@@ -32,10 +38,18 @@ import { initialState } from './state.ts';
 import type { State } from './state.ts';
 import { Store } from './store.ts';
 import { startTheme } from './theme.ts';
-import { View } from './view/view.ts';
+import type { View } from './view/view.ts';
 
+/** The longest that anything waits for the page to be seen. */
+const PATIENCE_MILLISECONDS = 300;
+
+let view: View | undefined;
+startTheme(byId<HTMLButtonElement>('theme'), () => view?.refresh());
+await painted();
+let shown = (): void => undefined;
+void startOffline(new Promise<void>((resolve) => (shown = resolve)));
 const store = new Store<State>(initialState());
-folds();
+folds(store);
 showJob(store);
 problemPanel(store);
 enginePanel(store);
@@ -48,16 +62,25 @@ halvesButton(store);
 movesPanel(store);
 dock(store);
 planPanel(store);
-startView();
+notes(store);
+void startView();
 await startEngine();
+shown();
+
+/** Resolves when the page is seen as it comes, before anything that keeps the graphics card busy; a page out of sight does not wait for that. */
+function painted(): Promise<void> {
+  return new Promise((resolve) => {
+    new PerformanceObserver(() => resolve()).observe({ type: 'paint', buffered: true });
+    setTimeout(resolve, PATIENCE_MILLISECONDS);
+  });
+}
 
 /** Without WebGL 2 the rest of the page still works. */
-function startView(): void {
+async function startView(): Promise<void> {
   try {
-    const view = new View(store);
-    startTheme(byId<HTMLButtonElement>('theme'), () => view.refresh());
+    const { View } = await import('./view/view.ts');
+    view = new View(store);
   } catch (error) {
-    startTheme(byId<HTMLButtonElement>('theme'), () => undefined);
     store.set({ problem: problemOf('The 3D view needs WebGL 2', error) });
   }
 }
@@ -81,7 +104,11 @@ async function startEngine(): Promise<void> {
     jobControls(store, page.jobs);
     followPlane(page);
     followModel(page);
-    await Promise.all([open(page, sampleSource(SAMPLES[0].file)), followRecipe(page)]);
+    resultsPanel(page);
+    followFiles(page);
+    followResults(page);
+    const restore = followOptions(() => addressOf(location.hash));
+    await Promise.all([followAddress(page, showTool).then(restore), followRecipe(page)]);
   } catch (error) {
     byId('engine').dataset.state = 'failed';
     byId('engine-text').textContent = 'not running';

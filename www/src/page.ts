@@ -10,6 +10,10 @@ export type Unit = NonNullable<ReadOptions['unit']>;
 /** Where a model comes from; read again when the engine had to be replaced. */
 export interface Source {
   readonly name: string;
+  /** No other source has it. */
+  readonly id: string;
+  /** The file of a sample; absent for all else. */
+  readonly sample?: string;
   /** Of the file's numbers, where its format does not say. */
   readonly unit: Unit;
   read(signal: AbortSignal): Promise<Uint8Array>;

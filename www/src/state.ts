@@ -1,10 +1,12 @@
 import type { Bounds, CheckReport, Cloud, HeatMap, Info, Layer, Prepared, Soup, Voxels, Warning } from 'fast-winding';
+import type { Tool } from './address.ts';
 import type { Comparison } from './comparison.ts';
 import type { DefectKind } from './defects.ts';
 import type { PlaneDistances } from './distances.ts';
 import { UNMOVED } from './placement.ts';
 import type { Placement } from './placement.ts';
 import type { Picture } from './picture.ts';
+import type { Result } from './made.ts';
 import type { MoveKind, Nozzle, Print, Recipe } from './print.ts';
 import type { Problem } from './problem.ts';
 import type { Combined, Offset, Repair, SurfaceMesh } from './results.ts';
@@ -103,6 +105,10 @@ export type Item = (typeof ITEMS)[number];
 export interface State {
   info?: Info;
   model?: Model;
+  /** Whether the browser keeps the model's file; undefined for a sample, and until it is known. */
+  kept?: boolean;
+  /** Where the person is. */
+  tool?: Tool;
   plane: Plane;
   layer?: Timed<Layer>;
   heat?: Timed<HeatMap>;
@@ -133,6 +139,10 @@ export interface State {
   picture?: Picture;
   /** Whether something runs along the field lines. */
   isFlowing: boolean;
+  /** All that was made of the model, the newest last. */
+  results: readonly Result[];
+  /** What the left half of the view shows instead of the model. */
+  against?: Result;
   /** Ways of making voxels, side by side. */
   comparison?: Comparison;
   /** What meshes are saved as. */
@@ -156,6 +166,8 @@ export interface State {
   hiddenMoves: ReadonlySet<MoveKind>;
   visible: Readonly<Record<Item, boolean>>;
   job?: Job;
+  /** What has happened last. */
+  note?: string;
   problem?: Problem;
 }
 
@@ -169,6 +181,7 @@ export function initialState(): State {
     seams: [],
     isDrawing: false,
     isFlowing: false,
+    results: [],
     meshFormat: 'stl',
     halves: false,
     cutAway: false,
@@ -194,6 +207,8 @@ export const NOTHING_MADE = {
   offset: undefined,
   combined: undefined,
   texture: undefined,
+  results: [],
+  against: undefined,
   seams: [],
   seamStart: undefined,
   isDrawing: false,

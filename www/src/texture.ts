@@ -24,6 +24,8 @@ export interface Texturing {
   readonly lines: FieldLines;
   /** Those that its charts were cut along, of those that were drawn. */
   readonly seams: readonly Seam[];
+  /** How it is mapped. */
+  readonly mapping: Mapping;
 }
 
 /** Millimetres along a chain of vertices. */

@@ -1,3 +1,5 @@
+import { remember, remembered } from './storage.ts';
+
 const KEY = 'fast-winding.theme';
 type Theme = 'light' | 'dark';
 
@@ -15,22 +17,13 @@ export function startTheme(button: HTMLButtonElement, changed: () => void): void
   system.addEventListener('change', apply);
   button.addEventListener('click', () => {
     choice = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
-    withStorage((storage) => storage.setItem(KEY, choice!));
+    remember(KEY, choice);
     apply();
   });
   apply();
 }
 
 function storedChoice(): Theme | undefined {
-  const value = withStorage((storage) => storage.getItem(KEY));
+  const value = remembered(KEY);
   return value === 'light' || value === 'dark' ? value : undefined;
-}
-
-/** Storage may be forbidden; the choice then lasts as long as the page. */
-function withStorage<T>(access: (storage: Storage) => T): T | undefined {
-  try {
-    return access(localStorage);
-  } catch {
-    return undefined;
-  }
 }

@@ -25,8 +25,8 @@ async function adoptOf(page: Page, suffix: string, made: () => Promise<Soup>): P
     try {
       const model = await modelOf(soup, name, 0, options);
       const source = await sourceOf(soup, name);
-      show(page, model);
       page.source = source;
+      show(page, model);
     } catch (error) {
       soup.free();
       throw error;

@@ -26,7 +26,8 @@ async function restart(page: Page): Promise<void> {
   const { store } = page;
   const { source, secondSource } = page;
   // Their shapes were in the engine that is gone.
-  store.set({ repair: undefined, combined: undefined, texture: undefined, seams: [], seamStart: undefined, isDrawing: false });
+  const results = store.state.results.filter(({ item }) => !['repaired', 'combined', 'textured'].includes(item));
+  store.set({ results, against: undefined, repair: undefined, combined: undefined, texture: undefined, seams: [], seamStart: undefined, isDrawing: false });
   if (source) {
     const model = await page.jobs.run('Starting again', (options) => load(page, source, options));
     store.set({ model });

@@ -1,3 +1,4 @@
+import type { Kept } from '../kept.ts';
 import type { Page, Source, Unit } from '../page.ts';
 import { initialState } from '../state.ts';
 import type { Model } from '../state.ts';
@@ -25,16 +26,30 @@ export async function reopen(page: Page, unit: Unit): Promise<void> {
 
 /** A source for a file that was dropped or chosen. */
 export function fileSource(file: File): Source {
-  return { name: file.name, unit: 'millimeter', read: async () => new Uint8Array(await file.arrayBuffer()) };
+  return { name: file.name, id: newId(), unit: 'millimeter', read: async () => new Uint8Array(await file.arrayBuffer()) };
+}
+
+/** A source for a file that the browser has kept. */
+export function keptSource({ id, name, unit, content }: Kept): Source {
+  return { id, name, unit, read: async () => new Uint8Array(await content.arrayBuffer()) };
+}
+
+/** By which a source is told from all others. */
+export function newId(): string {
+  return Math.random().toString(36).slice(2, 12);
 }
 
 /** A source for one of the samples served with the page. */
 export function sampleSource(file: string): Source {
   return {
     name: file,
+    id: file,
+    sample: file,
     unit: 'millimeter',
     async read(signal) {
-      const response = await fetch(`samples/${file}`, { signal });
+      const response = await fetch(`samples/${file}`, { signal }).catch((error: unknown) => {
+        throw signal.aborted ? error : new Error(`the server does not answer, and ${file} was not opened here before`);
+      });
       if (!response.ok) throw new Error(`the server answered ${response.status} for samples/${file}`);
       return new Uint8Array(await response.arrayBuffer());
     },

@@ -4,6 +4,7 @@ import { sizeOf, withProfile } from '../print.ts';
 import type { Print, Recipe } from '../print.ts';
 import { isLost, sentence } from '../problem.ts';
 import { endOf, segmentsOf } from '../segments.ts';
+import { isRecord, remember, remembered } from '../storage.ts';
 import type { Model } from '../state.ts';
 import { attempt } from './attempt.ts';
 import { fail } from './fail.ts';
@@ -12,15 +13,30 @@ import { timed } from './timed.ts';
 
 /** Millimetres: what most people print at with a common nozzle. */
 const LAYER_HEIGHT = 0.2;
+const KEY = 'fast-winding.recipe';
 
 /** Starts with the engine's defaults, and holds each recipe against the engine's ranges and the model against the printer. */
 export async function followRecipe(page: Page): Promise<void> {
   const { store } = page;
   const { settings, profile } = await page.engine.printSettings();
-  store.set({ recipe: { layerHeight: LAYER_HEIGHT, settings, profile } });
+  store.set({ recipe: await lastRecipe(page, { layerHeight: LAYER_HEIGHT, settings, profile }) });
   store.on(['recipe', 'model'], ({ recipe, model }) => {
     if (recipe) void check(page, recipe, model);
   });
+  store.on(['recipe'], ({ recipe }) => remember(KEY, recipe));
+}
+
+/** What was set when the page was here last, if the engine still takes it. */
+async function lastRecipe({ engine }: Page, usual: Recipe): Promise<Recipe> {
+  const value = remembered(KEY);
+  if (!isRecord(value) || typeof value.layerHeight !== 'number') return usual;
+  const last = value as unknown as Recipe;
+  try {
+    const { settings, profile } = await engine.printSettings(last);
+    return { layerHeight: last.layerHeight, settings, profile };
+  } catch {
+    return usual;
+  }
 }
 
 async function check(page: Page, recipe: Recipe, model?: Model): Promise<void> {
@@ -70,8 +86,4 @@ export async function loadProfile(page: Page, file: File): Promise<void> {
   } catch (error) {
     await fail(page, `${file.name} is no printer profile`, error);
   }
-}
-
-function isRecord(value: unknown): value is Record<string, unknown> {
-  return typeof value === 'object' && value !== null && !Array.isArray(value);
 }

@@ -20,7 +20,6 @@ export async function repairModel(page: Page, how: Pick<RepairOptions, 'method' 
     try {
       const after = (await checked(page, soup, options)).value;
       const value: Repair = { soup, triangles: await soup.geometry(), report, before, after };
-      store.state.repair?.value.soup.free();
       store.set({ repair: { value, milliseconds: made.milliseconds }, visible: only(page, 'repaired'), halves: true });
     } catch (error) {
       soup.free();

@@ -6,7 +6,7 @@ import type { PrimitiveName } from '../primitives.ts';
 import { sentence } from '../problem.ts';
 import { diagonal } from '../state.ts';
 import { attempt } from './attempt.ts';
-import { fileSource } from './open.ts';
+import { fileSource, newId } from './open.ts';
 import { load } from './load.ts';
 import { only } from './only.ts';
 import { timed } from './timed.ts';
@@ -33,7 +33,7 @@ export async function makeSecond(page: Page, name: PrimitiveName): Promise<void>
       soup.free();
     }
   };
-  await takeSecond(page, { name, unit: 'millimeter', read });
+  await takeSecond(page, { name, id: newId(), unit: 'millimeter', read });
 }
 
 async function takeSecond(page: Page, source: Source): Promise<void> {
@@ -79,7 +79,6 @@ export async function combine(page: Page, operation: BooleanOperation): Promise<
     }
     try {
       const value = { soup, triangles: await soup.geometry(), operands, warnings };
-      store.state.combined?.value.soup.free();
       store.set({ combined: { value, milliseconds: made.milliseconds }, visible: only(page, 'combined') });
     } catch (error) {
       soup.free();

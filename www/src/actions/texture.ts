@@ -18,7 +18,7 @@ export async function makeTexture(page: Page, mapping: Mapping, refine: boolean)
   await attempt(page, 'Texture', 'The texture could not be made', async (options) => {
     const { value: handle, milliseconds } = await timed(() => shape.texture({ ...mapping, onlySeams: false, refine, ...options }));
     try {
-      const value = { source: shape, ...(await contents(handle, [])) };
+      const value = { source: shape, ...(await contents(handle, [])), mapping };
       store.state.texture?.value.handle.free();
       const isFlowing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
       store.set({ texture: { value, milliseconds }, seams: [], seamStart: undefined, isDrawing: false, isFlowing, visible: only(page, 'textured') });
@@ -59,12 +59,12 @@ async function mapped(page: Page, before: Texturing, mapping: Mapping, seams: re
   const { handle, source } = before;
   const cuts = { seams: seams.map(({ chain }) => chain), onlySeams: mapping.onlySeams && seams.length > 0 };
   const { milliseconds } = await timed(() => handle.remap({ ...mapping, ...cuts, ...options }));
-  const value = { source, ...(await contents(handle, seams)) };
+  const value = { source, ...(await contents(handle, seams)), mapping };
   page.store.set({ texture: { value, milliseconds } });
   return value;
 }
 
-async function contents(handle: Texture, seams: readonly Seam[]): Promise<Omit<Texturing, 'source'>> {
+async function contents(handle: Texture, seams: readonly Seam[]): Promise<Omit<Texturing, 'source' | 'mapping'>> {
   const [soup, proxy, lines] = await Promise.all([handle.geometry(), handle.proxy(), handle.lines({ count: LINES })]);
   return { handle, report: handle.report, soup, proxy, lines, seams };
 }

@@ -1,6 +1,6 @@
 import type { ProxyGeometry } from 'fast-winding';
 import { byId, token } from '../dom.ts';
-import { count, plural } from '../format.ts';
+import { plural } from '../format.ts';
 import { checker } from '../picture.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
@@ -18,8 +18,9 @@ export function atlasView(store: Store<State>): void {
     const side = Math.round(canvas.clientWidth * Math.min(2, devicePixelRatio));
     if (canvas.width !== side) canvas.width = canvas.height = side;
     draw(canvas.getContext('2d')!, side, texture.value.proxy, store.state);
-    canvas.setAttribute('aria-label', `The picture with the outlines of ${plural(texture.value.report.charts, 'chart')}`);
-    byId('atlas-note').textContent = `${count(texture.value.report.charts)} charts, as large as what they show`;
+    const charts = plural(texture.value.report.charts, 'chart');
+    canvas.setAttribute('aria-label', `The picture with the outlines of ${charts}`);
+    byId('atlas-note').textContent = `${charts}, as large as what ${texture.value.report.charts === 1 ? 'it shows' : 'they show'}`;
   };
   new ResizeObserver(paint).observe(canvas);
   store.on(['texture', 'picture', 'visible'], paint);

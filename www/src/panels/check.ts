@@ -27,7 +27,7 @@ export function checkPanel(page: Page): void {
   const isSoup = ({ model }: State): boolean => model?.shape.kind === 'soup';
   enableWhenUsable(page, byId<HTMLButtonElement>('check'), isSoup);
   enableWhenUsable(page, byId<HTMLButtonElement>('turn'), isSoup);
-  byId('check').addEventListener('click', () => void checkModel(page).then(() => store.state.report && reveal('verdict')));
+  byId('check').addEventListener('click', () => void checkModel(page));
   byId('turn').addEventListener('click', () => void turnFaces(page));
   byId('check-save').addEventListener('click', () => saveReport(page));
   limit(page, 'check-thickness', 'minimumThickness');
@@ -36,7 +36,10 @@ export function checkPanel(page: Page): void {
   store.on(['model'], (state) => {
     byId('check-cloud').hidden = !state.model || isSoup(state);
   });
-  store.on(['report'], ({ report }) => showReport(report));
+  store.on(['report'], (state) => {
+    showReport(state.report);
+    if (state.report) reveal(state, 'verdict');
+  });
 }
 
 /** A number that the check goes by; with another one the model is checked again. */

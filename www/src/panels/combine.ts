@@ -43,11 +43,12 @@ export function combinePanel(page: Page): void {
     const combined = store.state.combined?.value;
     if (combined) void saveSoup(page, combined.soup, 'combined', format);
   });
-  store.on(['combined'], ({ combined }) => {
+  store.on(['combined'], (state) => {
+    const { combined } = state;
     byId('combine-result').hidden = !combined;
     setFacts(byId('combine-facts'), combined ? factsOf(combined) : []);
     setList(byId('combine-warnings'), (combined?.value.warnings ?? []).map(({ message }) => sentence(message)));
-    if (combined) reveal('combine-result');
+    if (combined) reveal(state, 'combine-result');
   });
 }
 

@@ -24,11 +24,13 @@ export function comparisonPanel(page: Page, wanted: () => { resolution: number; 
   enableWhenUsable(page, byId<HTMLButtonElement>('voxel-compare'));
   byId('voxel-compare').addEventListener('click', () => {
     const { resolution, threshold } = wanted();
-    void compareMethods(page, resolution, threshold).then(() => store.state.comparison && reveal('comparison'));
+    void compareMethods(page, resolution, threshold);
   });
-  store.on(['comparison'], ({ comparison }) => {
+  store.on(['comparison'], (state) => {
+    const { comparison } = state;
     byId('comparison').hidden = !comparison;
     if (comparison) byId('comparison-rows').replaceChildren(...comparison.rows.map((row) => line(page, row, comparison)));
+    if (comparison) reveal(state, 'comparison');
   });
   return () => menu.value as ComparedMethod;
 }

@@ -1,30 +1,39 @@
+import { TOOLS } from '../address.ts';
+import type { Tool } from '../address.ts';
+import { byId } from '../dom.ts';
+import type { State } from '../state.ts';
+import { remember, remembered } from '../storage.ts';
+import type { Store } from '../store.ts';
+
 const KEY = 'fast-winding.open';
 /** What is open before the person has opened or closed anything. */
 const OPEN_AT_FIRST = ['check-block'];
 
-/** The blocks of the panel that fold: which of them are open is remembered. */
-export function folds(): void {
-  const blocks = [...document.querySelectorAll<HTMLDetailsElement>('details.fold')];
+/** The blocks of the tools, which fold: those that are open are remembered, and the one that the person is at is the page's tool. */
+export function folds(store: Store<State>): void {
   const open = new Set(stored() ?? OPEN_AT_FIRST);
-  for (const block of blocks) {
+  const blocks = TOOLS.map((tool) => byId<HTMLDetailsElement>(`${tool}-block`));
+  const folding = blocks.filter((block) => block.matches('.fold'));
+  for (const block of folding) {
     block.open = open.has(block.id);
     block.addEventListener('toggle', () => {
-      const ids = blocks.filter((other) => other.open).map(({ id }) => id);
-      withStorage((storage) => storage.setItem(KEY, JSON.stringify(ids)));
+      remember(KEY, folding.filter((other) => other.open).map(({ id }) => id));
+      if (!block.open && block.id === `${store.state.tool}-block`) store.set({ tool: undefined });
     });
   }
+  blocks.forEach((block, k) => {
+    for (const event of ['focusin', 'click']) block.addEventListener(event, () => store.set({ tool: TOOLS[k] }));
+  });
+}
+
+/** Opens a tool's block, and scrolls it into sight. */
+export function showTool(tool: Tool): void {
+  const block = byId<HTMLDetailsElement>(`${tool}-block`);
+  block.open = true;
+  block.scrollIntoView();
 }
 
 function stored(): string[] | undefined {
-  const value: unknown = withStorage((storage) => JSON.parse(storage.getItem(KEY) ?? 'null'));
+  const value = remembered(KEY);
   return Array.isArray(value) ? value.filter((id) => typeof id === 'string') : undefined;
-}
-
-/** Storage may be forbidden, and may hold anything. */
-function withStorage<T>(access: (storage: Storage) => T): T | undefined {
-  try {
-    return access(localStorage);
-  } catch {
-    return undefined;
-  }
 }

@@ -1,5 +1,5 @@
 import { byId } from '../dom.ts';
-import { MADE_LABELS, madeOf } from '../made.ts';
+import { MADE, madeOf, nameOf } from '../made.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
 
@@ -7,13 +7,15 @@ import type { Store } from '../store.ts';
 export function halvesButton(store: Store<State>): void {
   const button = byId<HTMLButtonElement>('halves');
   button.addEventListener('click', () => store.set({ halves: !store.state.halves }));
-  store.on(['repair', 'combined', 'texture', 'offset', 'voxels', 'surface', 'visible', 'halves'], (state) => {
+  store.on(['repair', 'combined', 'texture', 'offset', 'voxels', 'surface', 'visible', 'halves', 'results', 'against'], (state) => {
     const made = madeOf(state);
     button.disabled = !made;
     button.title = made ? '' : 'Needs a surface or another result: make one first';
     button.setAttribute('aria-pressed', String(state.halves));
     byId('half-names').hidden = !state.halves;
-    byId('half-made').textContent = made ? MADE_LABELS[made] : '';
+    const right = made && state.results.find((result) => result.made === state[MADE[made].slot]);
+    byId('half-left').textContent = state.against ? nameOf(state.against, state.results) : 'Model';
+    byId('half-made').textContent = right ? nameOf(right, state.results) : '';
     if (!made && state.halves) store.set({ halves: false });
   });
 }

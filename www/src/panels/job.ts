@@ -6,6 +6,9 @@ import type { Store } from '../store.ts';
 /** Progress of the long job at work. */
 export function showJob(store: Store<State>): void {
   const bar = byId<HTMLProgressElement>('job-progress');
+  store.on(['job', 'model'], ({ job, model }) => {
+    byId('empty').hidden = model !== undefined || job !== undefined;
+  });
   store.on(['job'], ({ job }) => {
     byId('job').hidden = !job;
     document.body.setAttribute('aria-busy', String(job !== undefined));

@@ -1,4 +1,5 @@
 import { SAMPLES } from '../../samples/catalogue.ts';
+import { forgetKept } from '../actions/keep.ts';
 import { fileSource, open, reopen, sampleSource } from '../actions/open.ts';
 import { takePicture } from '../actions/picture.ts';
 import { openSecond } from '../actions/second.ts';
@@ -61,6 +62,15 @@ export function modelControls(page: Page): void {
     unit.value = page.source?.unit ?? 'millimeter';
   });
 
+  page.store.on(['model', 'kept'], ({ kept }) => {
+    byId('kept').hidden = kept === undefined;
+    byId('kept-text').textContent = kept ? 'Kept in this browser, to be there when the page is loaded again.' : 'Not kept: it is to be opened again when the page is loaded again.';
+    byId('forget').hidden = !kept;
+  });
+  byId('forget').addEventListener('click', () => {
+    void forgetKept(page);
+    byId('choose').focus();
+  });
   const input = byId<HTMLInputElement>('file');
   byId('choose').addEventListener('click', () => input.click());
   input.addEventListener('change', () => {

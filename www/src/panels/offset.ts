@@ -59,10 +59,11 @@ export function offsetPanel(page: Page): void {
     const offset = store.state.offset?.value;
     if (offset) void saveMesh(page, offset.mesh, offset.kind, format);
   });
-  store.on(['offset'], ({ offset }) => {
+  store.on(['offset'], (state) => {
+    const { offset } = state;
     byId('offset-result').hidden = !offset;
     setFacts(byId('offset-facts'), offset ? factsOf(offset) : []);
-    if (offset) reveal('offset-result');
+    if (offset) reveal(state, 'offset-result');
   });
 }
 

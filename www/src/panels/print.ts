@@ -36,7 +36,7 @@ export function printPanel(page: Page): void {
     byId('print-tiny').hidden = !isTiny(state);
     byId('print-tiny-size').textContent = state.model ? significant(Math.max(...sizeOf(state.model.bounds)), 2) : '';
   });
-  store.on(['print'], ({ print }) => showPrint(print));
+  store.on(['print'], showPrint);
   store.on(['print', 'recipe'], ({ print, recipe }) => {
     byId('print-stale').hidden = !print || print.value.recipe === recipe;
   });
@@ -61,11 +61,12 @@ function isTiny({ recipe, model }: State): boolean {
   return recipe !== undefined && model !== undefined && Math.max(...sizeOf(model.bounds)) < FEW_LINES * recipe.settings.lineWidth;
 }
 
-function showPrint(print: Timed<Print> | undefined): void {
+function showPrint(state: State): void {
+  const { print } = state;
   for (const id of ['gcode-download', 'slices-download']) byId<HTMLButtonElement>(id).disabled = !print;
   setList(byId('print-warnings'), (print?.value.warnings ?? []).map(({ message }) => sentence(message)));
   setFacts(byId('print-facts'), print ? factsOf(print) : []);
-  if (print) reveal('print-facts');
+  if (print) reveal(state, 'print-facts');
 }
 
 function factsOf({ value: { gcode, segments }, milliseconds: time }: Timed<Print>): [string, string][] {

@@ -5,7 +5,7 @@ import type { Page } from '../page.ts';
 import type { Mapping } from '../texture.ts';
 import { lengthField } from './length-field.ts';
 import type { LengthField } from './length-field.ts';
-import { slider } from './slider.ts';
+import { setSlider, slider } from './slider.ts';
 import { enableWhenUsable } from './usable.ts';
 
 /** The slider's far end, as a part of the model's longest side. */
@@ -27,6 +27,16 @@ export function proxyFields(page: Page, changed: () => void): () => Mapping {
   auto.addEventListener('change', adapt);
   for (const control of [auto, both, resolution, smoothing]) control.addEventListener('change', changed);
   const sides = (): Mapping['sides'] => (both.checked ? 'both' : 'outer');
+
+  // A change that was cancelled, or failed, is taken back.
+  store.on(['job', 'texture'], ({ job, texture }) => {
+    if (job || !texture) return;
+    const { mapping, report } = texture.value;
+    offset.set(report.offset);
+    both.checked = mapping.sides === 'both';
+    setSlider(smoothing, mapping.smoothing!);
+    if (!auto.checked) setSlider(resolution, mapping.resolution!);
+  });
 
   const suggest = byId<HTMLButtonElement>('texture-suggest');
   const hint = byId('texture-suggested');
@@ -54,8 +64,7 @@ export function proxyFields(page: Page, changed: () => void): () => Mapping {
 
 /** How far away the proxy is. */
 function offsetField(page: Page, changed: () => void): LengthField {
-  const { store } = page;
-  const field = lengthField(page, {
+  return lengthField(page, {
     exact: 'texture-exact',
     track: 'texture-offset',
     reach: () => REACH * longestSide(page),
@@ -63,11 +72,6 @@ function offsetField(page: Page, changed: () => void): LengthField {
     startsAnew: true,
     changed,
   });
-  // A change that was cancelled, or failed, is taken back.
-  store.on(['job', 'texture'], ({ job, texture }) => {
-    if (!job && texture) field.set(texture.value.report.offset);
-  });
-  return field;
 }
 
 function longestSide({ store }: Page): number {

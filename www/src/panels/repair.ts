@@ -56,13 +56,14 @@ export function repairPanel(page: Page): void {
     const repair = store.state.repair?.value;
     if (repair) void saveSoup(page, repair.soup, 'repaired', format);
   });
-  store.on(['repair'], ({ repair }) => {
+  store.on(['repair'], (state) => {
+    const { repair } = state;
     byId('repair-result').hidden = !repair;
     if (!repair) return;
     byId('repair-caption').textContent = headline(repair.value.after);
     byId('repair-rows').replaceChildren(...rowsOf(repair.value).map(row));
     setFacts(byId('repair-facts'), factsOf(repair));
-    reveal('repair-facts');
+    reveal(state, 'repair-facts');
   });
 }
 

@@ -4,7 +4,7 @@ import { length } from '../format.ts';
 import type { Page } from '../page.ts';
 import { allOf } from '../state.ts';
 import { lengthOf } from '../texture.ts';
-import type { Mapping, Seam } from '../texture.ts';
+import type { Mapping, Seam, Texturing } from '../texture.ts';
 import { enableWhenUsable } from './usable.ts';
 
 /** Seams that the person draws on the proxy, and the charts that are cut along them. */
@@ -41,15 +41,26 @@ export function seamsPanel(page: Page, wanted: () => Mapping): void {
         ? 'Click where the seam starts; the end of one leads it on. With the keys: turn the view, Enter marks its middle.'
         : 'Click where it ends; the same place again takes it back.';
   });
-  store.on(['seams', 'seamStart', 'texture', 'job'], ({ seams, seamStart, texture, job }) => {
+  store.on(['seams', 'seamStart', 'job'], ({ seams, seamStart, job }) => {
     undo.disabled = job !== undefined || (seams.length === 0 && seamStart === undefined);
-    byId('seam-stale').hidden = !texture || texture.value.seams === seams || (seams.length === 0 && texture.value.seams.length === 0);
   });
+  const tellStale = (): void => {
+    const { texture, seams } = store.state;
+    byId('seam-stale').hidden = !texture || isCut(texture.value, seams, wanted());
+  };
+  store.on(['seams', 'texture', 'job'], tellStale);
+  for (const id of ['texture-cone', 'texture-only-seams']) byId(id).addEventListener('change', tellStale);
   store.on(['seams', 'texture'], ({ seams, texture }) => {
     const list = byId('seam-list');
     setList(list, texture ? seams.map((seam, k) => `Seam ${k + 1}, ${length(lengthOf(seam, texture.value.proxy))}`) : []);
     [...list.children].forEach((item, k) => item.append(remover(page, seams[k], k)));
   });
+}
+
+/** Whether the charts are as they would be cut now. */
+function isCut({ seams: cut, mapping }: Texturing, seams: readonly Seam[], { cone, onlySeams }: Mapping): boolean {
+  if (seams.length === 0 && cut.length === 0) return mapping.cone === cone;
+  return seams === cut && mapping.cone === cone && mapping.onlySeams === onlySeams;
 }
 
 function remover({ store }: Page, seam: Seam, k: number): HTMLButtonElement {

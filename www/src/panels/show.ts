@@ -1,4 +1,5 @@
 import { byId } from '../dom.ts';
+import { MADE } from '../made.ts';
 import { ITEMS } from '../state.ts';
 import type { Item, State } from '../state.ts';
 import type { Store } from '../store.ts';
@@ -62,29 +63,29 @@ function describe({ model, layer, defect, repair, voxels, comparison, surface, o
     case 'layer':
       return { isThere: layer !== undefined, label: 'Layer', token: '--view-layer' };
     case 'voxels':
-      return { isThere: voxels !== undefined, label: 'Voxels', token: '--view-voxels' };
+      return { isThere: voxels !== undefined, ...MADE.voxels };
     case 'surface':
-      return { isThere: surface !== undefined, label: 'Surface', token: '--view-surface' };
+      return { isThere: surface !== undefined, ...MADE.surface };
     case 'defects':
       return { isThere: defect !== undefined, label: 'Defects', token: '--view-defect' };
     case 'repaired':
-      return { isThere: repair !== undefined, label: 'Repaired', token: '--view-repaired' };
+      return { isThere: repair !== undefined, ...MADE.repaired };
     case 'difference':
       return { isThere: comparison !== undefined, label: 'Wrong voxels', token: '--view-gained' };
     case 'offset':
-      return { isThere: offset !== undefined, label: offset?.value.kind === 'hollow' ? 'Hollow' : 'Offset', token: '--view-offset' };
+      return { isThere: offset !== undefined, ...MADE.offset, ...(offset?.value.kind === 'hollow' ? { label: 'Hollow' } : {}) };
     case 'second':
       return { isThere: second !== undefined, label: 'Second model', token: '--view-second' };
     case 'combined':
-      return { isThere: combined !== undefined, label: 'Combined', token: '--view-front' };
+      return { isThere: combined !== undefined, ...MADE.combined };
     case 'proxy':
       return { isThere: texture !== undefined, label: 'Charts of the proxy', token: '--view-proxy' };
     case 'fieldLines':
       return { isThere: texture !== undefined, label: 'Field lines', token: '--view-field' };
     case 'textured':
-      return { isThere: texture !== undefined, label: 'Textured', token: '--view-textured' };
+      return { isThere: texture !== undefined, ...MADE.textured };
     case 'print':
-      return { isThere: print !== undefined, label: 'Print', token: '--print-outer-wall' };
+      return { isThere: print !== undefined, ...MADE.print };
   }
 }
 

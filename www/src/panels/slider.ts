@@ -5,13 +5,20 @@ import type { State } from '../state.ts';
 /** A slider whose value is written beside it. */
 export function slider(id: string): HTMLInputElement {
   const input = byId<HTMLInputElement>(id);
-  const show = (): void => {
-    byId(`${id}-out`).textContent = input.value;
-    paintSlider(input);
-  };
-  input.addEventListener('input', show);
-  show();
+  input.addEventListener('input', () => show(input));
+  show(input);
   return input;
+}
+
+/** Sets such a slider, without a word to those who listen. */
+export function setSlider(input: HTMLInputElement, value: number): void {
+  input.valueAsNumber = value;
+  show(input);
+}
+
+function show(input: HTMLInputElement): void {
+  byId(`${input.id}-out`).textContent = input.value;
+  paintSlider(input);
 }
 
 /** How many cubic cells a resolution along the longest side means for the model. */

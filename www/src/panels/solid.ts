@@ -31,7 +31,8 @@ export function voxelPanel(page: Page): void {
     if (format === 'vox' || format === 'nrrd') void saveVoxels(page, voxels, format);
     else if (voxels.surface) void saveMesh(page, voxels.surface, 'voxels', format as MeshFormat);
   });
-  store.on(['voxels'], ({ voxels }) => {
+  store.on(['voxels'], (state) => {
+    const { voxels } = state;
     setFacts(
       byId('voxel-facts'),
       voxels
@@ -42,7 +43,7 @@ export function voxelPanel(page: Page): void {
           ]
         : [],
     );
-    if (voxels) reveal('voxel-facts');
+    if (voxels) reveal(state, 'voxel-facts');
   });
   enableWhenUsable(page, byId<HTMLButtonElement>('voxelize'));
 }
@@ -83,7 +84,8 @@ export function surfacePanel(page: Page): void {
     if (mesh) void adopt(page, mesh, 'surface');
   });
   enableWhenUsable(page, byId<HTMLButtonElement>('surface-use'), (state) => state.surface !== undefined);
-  store.on(['surface'], ({ surface }) => {
+  store.on(['surface'], (state) => {
+    const { surface } = state;
     setFacts(
       byId('surface-facts'),
       surface
@@ -94,7 +96,7 @@ export function surfacePanel(page: Page): void {
           ]
         : [],
     );
-    if (surface) reveal('surface-facts');
+    if (surface) reveal(state, 'surface-facts');
   });
   enableWhenUsable(page, byId<HTMLButtonElement>('surface'));
 }

@@ -24,15 +24,17 @@ export function texturePanel(page: Page): void {
   const [refine, onlySeams] = ['texture-refine', 'texture-only-seams'].map((id) => byId<HTMLInputElement>(id));
   const wanted = (): Mapping => ({ ...proxy(), cone: cone.valueAsNumber, onlySeams: onlySeams.checked });
 
-  byId('texture').addEventListener('click', () => void makeTexture(page, wanted(), refine.checked).then(() => store.state.texture && reveal('texture-result')));
+  byId('texture').addEventListener('click', () => void makeTexture(page, wanted(), refine.checked));
   enableWhenUsable(page, byId<HTMLButtonElement>('texture'), isSoup);
   store.on(['model'], (state) => {
     byId('texture-cloud').hidden = !state.model || isSoup(state);
   });
-  store.on(['texture'], ({ texture }) => {
+  store.on(['texture'], (state) => {
+    const { texture } = state;
     byId('texture-result').hidden = !texture;
     setFacts(byId('texture-facts'), texture ? factsOf(texture) : []);
     if (texture) say(texture.value);
+    if (texture) reveal(state, 'texture-result');
   });
   shownChoice(store);
   pictureField(page);

@@ -2,9 +2,9 @@ import { byId } from '../dom.ts';
 import type { Page } from '../page.ts';
 import type { State } from '../state.ts';
 
-/** Scrolls figures into sight where the panels have their own column; on a narrow page the view is what to look at. */
-export function reveal(id: string): void {
-  if (matchMedia('(min-width: 56rem)').matches) byId(id).scrollIntoView({ block: 'nearest' });
+/** Scrolls the figures of what was just made into sight where the panels have their own column; on a narrow page the view is what to look at. */
+export function reveal({ job }: State, id: string): void {
+  if (job && matchMedia('(min-width: 56rem)').matches) byId(id).scrollIntoView({ block: 'nearest' });
 }
 
 /** Whether a job can start; a button is then enabled. It also gets the focus back that it loses while its own job runs. */

@@ -1,5 +1,6 @@
 import { Group, InstancedMesh, Plane } from 'three';
 import type { BufferGeometry, Material, Mesh, Object3D } from 'three';
+import type { Movable } from './mesh.ts';
 
 /** What the parts of the view share. */
 export interface Surroundings {
@@ -27,5 +28,6 @@ function release(object: Object3D): void {
     geometry?.dispose();
     material?.map?.dispose();
     material?.dispose();
+    (child.userData as Partial<Movable>).release?.();
   });
 }

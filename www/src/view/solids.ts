@@ -4,12 +4,9 @@ import { shownRow } from '../comparison.ts';
 import type { ComparedVoxels } from '../comparison.ts';
 import { token } from '../dom.ts';
 import type { Combined, Triangles } from '../results.ts';
-import type { Item, State } from '../state.ts';
+import type { Solid } from '../made.ts';
+import type { State } from '../state.ts';
 import { twoSidedMesh } from './mesh.ts';
-
-/** What of the state is drawn as a solid, in the place of the model. */
-export const SOLIDS = ['voxels', 'surface', 'repaired', 'offset', 'combined', 'difference'] as const satisfies readonly Item[];
-export type Solid = (typeof SOLIDS)[number];
 
 /** Cubes of wrong voxels are a little larger than these, so as not to flicker with what they lie on. */
 const CUBE = 1.01;

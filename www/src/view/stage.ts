@@ -2,12 +2,15 @@ import { Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vec
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { cameraFor, sideOf } from './framing.ts';
 import type { Box, CameraPlace, Direction } from './framing.ts';
+import { tellMotion } from './mesh.ts';
 
 /** Angle that one press of an arrow key turns the camera. */
 const TURN_RADIANS = Math.PI / 24;
 const ZOOM_PER_PRESS = 1.15;
 /** Keeps the camera from looking exactly along z, where "up" would flip. */
 const POLE_RADIANS = 0.01;
+
+const REST_MILLISECONDS = 250;
 
 /** Renderer, camera, lights and their controls. Draws only when something changed. */
 export class Stage {
@@ -19,7 +22,10 @@ export class Stage {
   /** What to show in the left and the right half, if the view is split. */
   #halves: readonly (() => void)[] = [];
   #box?: Box;
+  #wholeBox: () => Box | undefined = () => this.#box;
   #isWaiting = false;
+  /** Runs while the camera moves. */
+  #rest?: ReturnType<typeof setTimeout>;
 
   constructor(canvas: HTMLCanvasElement) {
     this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -27,7 +33,7 @@ export class Stage {
     this.camera.up.set(0, 0, 1);
     this.#light();
     this.#controls = new OrbitControls(this.camera, canvas);
-    this.#controls.addEventListener('change', () => this.draw());
+    this.#controls.addEventListener('change', () => this.#move());
     canvas.addEventListener('keydown', (event) => this.#onKey(event));
     new ResizeObserver(() => this.#resize(canvas)).observe(canvas);
   }
@@ -43,6 +49,18 @@ export class Stage {
       if (this.#halves.length > 0) this.#drawHalves();
       else this.#renderer.render(this.scene, this.camera);
     });
+  }
+
+  /** After a while without another move the camera is at rest. */
+  #move(): void {
+    if (this.#rest === undefined) tellMotion(this.scene, true);
+    clearTimeout(this.#rest);
+    this.#rest = setTimeout(() => {
+      this.#rest = undefined;
+      tellMotion(this.scene, false);
+      this.draw();
+    }, REST_MILLISECONDS);
+    this.draw();
   }
 
   /** Splits the view: before each half is drawn, its function shows what belongs there. Without functions it is whole again. */
@@ -80,10 +98,15 @@ export class Stage {
   }
 
   /** Looks at the whole box, from now on what there is; from where the camera is unless a direction is given. */
-  frame(box: Box | undefined = this.#box, direction?: Direction): void {
+  frame(box: Box | undefined = this.#wholeBox(), direction?: Direction): void {
     if (!box) return;
     this.#box = box;
     this.#go(cameraFor(box, this.camera, this.#controls.target, direction));
+  }
+
+  /** Tells what is shown, to be looked at when the person asks for all of it. */
+  whole(box: () => Box | undefined): void {
+    this.#wholeBox = () => box() ?? this.#box;
   }
 
   /** Looks at a part of what there is, from the side that it faces if that is given. */

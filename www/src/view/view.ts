@@ -1,11 +1,12 @@
-import { Plane, Vector3 } from 'three';
+import { Box3, Plane, Vector3 } from 'three';
 import { colourOf, spanOf } from '../colour.ts';
 import { byId } from '../dom.ts';
 import { shadesOf } from '../measure.ts';
 import { significant } from '../format.ts';
 import { diagonal, ITEMS, planeHeight } from '../state.ts';
 import type { Item, Model, State } from '../state.ts';
-import { madeOf } from '../made.ts';
+import { isSolid, madeOf, SOLIDS, withResult } from '../made.ts';
+import type { Solid } from '../made.ts';
 import type { Store } from '../store.ts';
 import { drawAxes } from './axes.ts';
 import type { Box, Direction } from './framing.ts';
@@ -18,8 +19,7 @@ import { Part } from './part.ts';
 import { Placing } from './placing.ts';
 import { normalsOf, pointsOf } from './points.ts';
 import { Preview } from './preview.ts';
-import { SOLIDS, solidObjects } from './solids.ts';
-import type { Solid } from './solids.ts';
+import { solidObjects } from './solids.ts';
 import { Stage } from './stage.ts';
 import { TexturingView } from './texturing.ts';
 
@@ -27,6 +27,8 @@ const BOUNDARY_PIXELS = 2.5;
 
 /** Where in the state each solid is. */
 const SOURCES: Record<Solid, keyof State> = { voxels: 'voxels', surface: 'surface', repaired: 'repair', offset: 'offset', combined: 'combined', difference: 'comparison' };
+/** What the view is fitted to. */
+const BODIES: readonly Item[] = ['model', ...SOLIDS, 'second', 'proxy', 'fieldLines', 'textured'];
 /** What is seen with the model when it is beside what was made of it. */
 const BESIDE: readonly Item[] = ['model', 'boundary', 'normals', 'defects', 'second'];
 
@@ -37,6 +39,8 @@ export class View {
   readonly #floor = new Part();
   readonly #pane = new Part();
   readonly #heat = new Part();
+  /** A result that another one is held against. */
+  readonly #against = new Part();
   readonly #items = Object.fromEntries(ITEMS.map((item) => [item, new Part()])) as Record<Item, Part>;
   readonly #preview: Preview;
   readonly #inspector: Inspector;
@@ -49,11 +53,12 @@ export class View {
   constructor(store: Store<State>) {
     this.#store = store;
     this.#stage = new Stage(byId<HTMLCanvasElement>('canvas'));
-    this.#stage.scene.add(...[this.#floor, this.#pane, this.#heat, ...Object.values(this.#items)].map((part) => part.group));
+    this.#stage.scene.add(...[this.#floor, this.#pane, this.#heat, this.#against, ...Object.values(this.#items)].map((part) => part.group));
     this.#preview = new Preview(store, this.#stage, this.#items.print);
     this.#inspector = new Inspector(store, this.#stage, this.#items.defects);
     this.#placing = new Placing(store, this.#stage, this.#items.second);
     this.#texturing = new TexturingView(store, this.#stage, this.#items);
+    this.#stage.whole(() => this.#box());
     this.#stage.beforeDraw(() => this.#followCamera());
     this.#followStore();
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-view]')) {
@@ -68,10 +73,20 @@ export class View {
     this.#showPlane();
     this.#showLayer();
     for (const solid of SOLIDS) this.#showSolid(solid);
+    this.#showAgainst();
     this.#preview.refresh();
     this.#inspector.refresh();
     this.#placing.refresh();
     this.#texturing.refresh(this.#cut);
+  }
+
+  /** Of the bodies that are shown. */
+  #box(): Box | undefined {
+    const { visible, halves } = this.#store.state;
+    const made = madeOf(this.#store.state);
+    const box = new Box3();
+    for (const item of BODIES) if (halves ? item === 'model' || item === made : visible[item]) box.expandByObject(this.#items[item].group);
+    return box.isEmpty() ? undefined : { min: box.min.toArray(), max: box.max.toArray() };
   }
 
   /** From below, the floor would hide what stands on it. */
@@ -84,8 +99,7 @@ export class View {
   }
 
   #followStore(): void {
-    const { state } = this.#store;
-    let framed = state.model?.shape;
+    let framed: object | undefined;
     this.#store.on(['settling', 'measure'], () => this.#showModel());
     this.#store.on(['halves'], ({ halves }) => {
       this.#stage.split(halves ? [() => this.#showHalf(false), () => this.#showHalf(true)] : []);
@@ -104,6 +118,7 @@ export class View {
     this.#store.on(['plane', 'heat', 'distances', 'model'], () => this.#showPlane());
     this.#store.on(['layer', 'heat', 'distances'], () => this.#showLayer());
     for (const solid of SOLIDS) this.#store.on([SOURCES[solid]], () => this.#showSolid(solid));
+    this.#store.on(['against'], () => this.#showAgainst());
     this.#store.on(['visible'], () => this.#showVisible());
   }
 
@@ -111,16 +126,19 @@ export class View {
     const { visible } = this.#store.state;
     for (const item of ITEMS) this.#items[item].group.visible = visible[item];
     this.#pane.group.visible = this.#heat.group.visible = visible.layer;
+    this.#against.group.visible = false;
     this.#stage.draw();
   }
 
-  /** Only the model, or only what was made of it. */
+  /** Only what was made of the model, or only what that is held against: the model, or another result. */
   #showHalf(isMade: boolean): void {
-    const { visible } = this.#store.state;
+    const { visible, against } = this.#store.state;
     const made = madeOf(this.#store.state);
     const isBeside = (item: Item): boolean => BESIDE.includes(item) && (visible[item] || (item === 'second' && made === 'combined'));
     for (const item of ITEMS) this.#items[item].group.visible = isMade ? item === made : isBeside(item);
     this.#items.model.group.visible = !isMade;
+    this.#against.group.visible = against !== undefined && !isMade;
+    if (this.#against.group.visible) for (const item of ITEMS) this.#items[item].group.visible = false;
     this.#pane.group.visible = this.#heat.group.visible = false;
   }
 
@@ -163,6 +181,13 @@ export class View {
       const span = spanOf(heat.value.values);
       this.#heat.replace(mapPane(heat.value, (value) => colourOf(value, span), surroundings));
     } else this.#heat.replace(...(distances ? distancePane(distances.value, surroundings) : []));
+    this.#stage.draw();
+  }
+
+  #showAgainst(): void {
+    const { against } = this.#store.state;
+    const objects = against && isSolid(against.item) ? solidObjects(against.item, withResult(this.#store.state, against), this.#cut) : [];
+    this.#against.replace(...objects);
     this.#stage.draw();
   }
 
