@@ -1,7 +1,23 @@
-// Runs the benches: `native` (criterion), `wasm` (Node, beside native), `scale` (up to ten million triangles), `browser`
-// (Chromium, beside three-mesh-bvh), `layers` (beside manifold-3d and trimesh), `booleans` (beside manifold-3d), `repairs` (taken by
-// manifold-3d or not), `peers` (beside other implementations) and `figures` (those of the paper, as tables and as plots in
-// docs/figures), or those named. What begins with -- and all after it goes to each of them; for the figures it is `--models` and files:
+// Runs the benches: those of the README's tables, or those named.
+//     native      criterion
+//     wasm        WebAssembly in Node beside native
+//     scale       up to ten million triangles
+//     browser     Chromium, beside three-mesh-bvh
+//     layers      beside manifold-3d and trimesh
+//     prints      one thousand layers, and the share of slicing in preparing a print
+//     booleans    beside manifold-3d
+//     repairs     taken by manifold-3d or not
+//     checks      what is wrong with a model, and turning its faces back
+//     voxels      ways of making voxels, and saved fields
+//     normals     normals of unoriented clouds
+//     peers       winding numbers beside other implementations
+//     surfaces    surfaces of clouds beside Poisson's
+//     distances   beside Open3D and pysdf
+//     charges     charges and field lines, beside the paper's tables
+//     textures    beside standard projections
+//     figures     those of the paper and of layers, as tables and as plots in docs/figures
+// Peers are installed into throw-away environments under the user's cache. What begins with -- and all after it goes to each of
+// them; for the figures it is `--models` and files:
 //     npm --prefix www run bench peers -- --rounds 5
 //     npm --prefix www run bench figures -- --models part.stl scan.ply
 import { mkdtempSync, rmSync } from 'node:fs';
@@ -18,6 +34,21 @@ import { requireCargo } from './tools/rust.mjs';
 const script = (name) => join(root, 'tests/bench', name);
 
 const FIGURE_MODELS = ['bunny', 'teapot', 'gear', 'snowden', 'loose-bunny', 'dragon11k', 'dragon47k', 'dragon202k', 'dragon871k'];
+
+/** Where models are written once; the peers look for them there too. */
+const kept = (name) => model(join(process.env.CARGO_TARGET_DIR ?? join(root, 'target'), 'bench-models'), name);
+
+/** Runs one of the crate's measuring programs. */
+const example = (name, ...options) => run('cargo', ['run', '--release', '--example', name, '--', ...options], { cwd: root });
+
+/** Runs a program beside implementations from PyPI. */
+async function beside(name, options) {
+  if (!which('python3')) throw new StepFailed('python3 is missing. On Debian: apt-get install -y python3 python3-venv');
+  await npmInstall();
+  await run('python3', [script(`peers/${name}.py`), ...options], { cwd: root });
+}
+
+const CLOUD_MODELS = ['bumpy70k', 'knot124k', 'bunny', 'dragon202k', 'teapot'];
 
 const BENCHES = {
   native: (options) => run('cargo', ['bench', ...(options.length ? ['--', ...options] : [])], { cwd: root }),
@@ -43,11 +74,31 @@ const BENCHES = {
     const { chromium } = await browser();
     await run('node', [script('browser.mjs'), ...options], { cwd: root, env: { CHROMIUM: chromium } });
   },
-  async peers(options) {
-    if (!which('python3')) throw new StepFailed('python3 is missing. On Debian: apt-get install -y python3 python3-venv');
+  async prints(options) {
     await npmInstall();
-    await run('python3', [script('peers/compare.py'), ...options], { cwd: root });
+    await example('slices', kept('bumpy1m'), '--layers', '1000', ...options);
+    for (const name of ['knot124k', 'bunny']) await example('print', kept(name), '--size', '80');
   },
+  async checks() {
+    await npmInstall();
+    const models = ['knot124k', 'bunny', 'teapot', 'dragon202k'].map(kept);
+    await example('checks', ...models);
+    await example('orientation', ...models);
+  },
+  async voxels() {
+    await npmInstall();
+    await example('voxels', 'tables');
+    await example('voxels', 'saves', `loose:${kept('bumpy1m')}`, `points:${kept('bumpy2m')}`);
+  },
+  async normals(options) {
+    await npmInstall();
+    await example('normals', ...CLOUD_MODELS.map(kept), ...options);
+  },
+  peers: (options) => beside('compare', options),
+  surfaces: (options) => beside('surfaces', options),
+  distances: (options) => beside('distance', options),
+  charges: (options) => example('charges', ...options),
+  textures: (options) => example('texture', ...options),
   async figures(options) {
     await npmInstall();
     const further = options.includes('--models') ? options.slice(options.indexOf('--models') + 1) : [];

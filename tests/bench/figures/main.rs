@@ -1,9 +1,10 @@
 //! The figures of Barill et al. 2018 with this crate's evaluators: `node pkg-config/bench.mjs figures`.
 //!
 //! `figures FOLDER MODEL…` reads models, generates more, prints Markdown tables and writes plots as SVG files to FOLDER:
-//! build and query time against size (fig. 10), voxelization and error against β (fig. 11 and its inset), and the share
+//! build and query time against size (fig. 10), that of layers, voxelization and error against β (fig. 11 and its inset), and the share
 //! of misclassified voxels (the statistics of section 4). Everything runs on all threads; times are medians of one run.
 mod accuracy;
+mod layers;
 mod measured;
 mod models;
 mod plot;
@@ -31,6 +32,10 @@ fn main() {
     println!("{} threads; times are medians.\n", rayon::current_num_threads());
 
     scaling::report(read.iter().cloned().chain(models::growing()), folder);
+    // Loose and damaged soups are traced on grids: minutes.
+    let is_cut =
+        |model: &Model| !["loose-bunny", "damaged torus", "snowden", "teapot"].contains(&model.name.as_str());
+    layers::report(read.iter().cloned().chain(models::growing()).filter(is_cut), folder);
     let chosen: Vec<&Model> =
         VOXEL_MODELS.iter().filter_map(|name| read.iter().find(|model| model.name == *name)).collect();
     let fallback = models::damaged_torus(10_000);
