@@ -1,6 +1,6 @@
 //! Soups and clouds out of bytes.
 use super::source::Source;
-use fast_winding::data::{OrientedCloud, PointCloud, Shape, TriangleSoup};
+use fast_winding::data::{LARGEST_COORDINATE, OrientedCloud, PointCloud, Shape, TriangleSoup};
 use fast_winding::math::{Aabb, Affine, Vec3};
 
 /// A shape, and whether its numbers are such that results can be held against sums.
@@ -12,8 +12,6 @@ pub struct Made<T> {
 /// Most triangles that are given one by one.
 const TRIANGLES: usize = 24;
 const POINTS: usize = 60;
-/// Farther than that from the origin, nothing is moved.
-const LARGEST: f64 = 1e300;
 
 impl Source<'_> {
     /// Cuboids and tetrahedra on the grid: closed, oriented outward, often overlapping, touching or flat.
@@ -57,14 +55,15 @@ impl Source<'_> {
             10 => 0.01,
             11 => 100.0,
             12 => 1e-160,
-            13 => 1e160,
+            13 => 1e70,
             14 => 1e-300,
-            _ => 1e299,
+            _ => 1e71,
         };
         let shift = match kind >> 2 & 3 {
             0 | 1 => 0.0,
             2 => 0.7,
-            _ => 1e7,
+            _ if scale < 1.0 => 1e7,
+            _ => 1e3,
         };
         let turn = match kind & 3 {
             0 | 1 => Affine::IDENTITY,
@@ -165,7 +164,7 @@ impl Source<'_> {
     /// A cloud with unit normals and areas.
     pub fn oriented_cloud(&mut self) -> Made<OrientedCloud> {
         let Made { shape: cloud, is_tame } = self.cloud();
-        let is_usable = |p: &Vec3| p.abs().max_element() <= LARGEST;
+        let is_usable = |p: &Vec3| p.abs().max_element() <= LARGEST_COORDINATE;
         let points: Vec<Vec3> = cloud.points().iter().copied().filter(is_usable).collect();
         let normals = points.iter().map(|_| self.normal().try_normalize().unwrap_or(Vec3::X)).collect();
         let areas = points.iter().map(|_| if is_tame { self.share() } else { self.number() });

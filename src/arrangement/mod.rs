@@ -183,6 +183,7 @@ fn start<'a>(positions: Vec<Vec3>, corners: &'a [[u32; 3]], found: &Contacts) ->
         inside,
         pieces: Default::default(),
         wishes: Vec::new(),
+        most_events: Default::default(),
         unresolved: 0,
     }
 }

@@ -22,7 +22,7 @@ pub use report::{
 };
 
 use crate::bvh::Bvh;
-use crate::data::{LeftOut, Monitor, Shape, Topology, TriangleSoup, map_items};
+use crate::data::{LeftOut, Monitor, Parts, Shape, Topology, TriangleSoup, map_items};
 use crate::math::{Aabb, Vec3};
 use crate::winding::{WindingField, weld};
 use faces::Face;
@@ -50,6 +50,7 @@ pub fn check(
     let stage = |name: &'static str, from: f64, to: f64| {
         move |fraction: f64, _: &str| monitor.report(from + (to - from) * fraction, name).is_ok()
     };
+    let monitor = &Parts::new(monitor);
     monitor.report(0.0, "faces")?;
     let faces = faces::faces(soup);
     let boxes = map_items(soup.len(), |t| Aabb::around(soup.corners(t)));

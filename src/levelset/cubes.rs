@@ -144,7 +144,7 @@ impl Vertices {
                 edges.extend(nodes.map(|node| self.bricks.edge(grid, place, node, axis)));
             }
             if edges.len() >= EDGES_AT_ONCE || number + 1 == self.order.len() {
-                let (done, total) = (positions.len() as f64, self.count as f64);
+                let (done, total) = (positions.len() as f64, self.count.max(1) as f64);
                 let share = edges.len() as f64;
                 let of_all =
                     |part: f64, stage: &str| monitor.report((done + share * part) / total, stage).is_ok();

@@ -2,7 +2,7 @@
 use super::{SurfaceConfig, SurfaceError};
 use crate::data::{Lattice, LatticeError, Monitor, OrientedCloud, Shape};
 use crate::estimate::{EstimateError, roughness};
-use crate::levelset::{Blur, SurfaceGrid};
+use crate::levelset::{Blur, SurfaceGrid, places_of_shape};
 use crate::math::{Vec3, area_vector};
 use crate::winding::WindingField;
 
@@ -43,7 +43,7 @@ pub fn grid(
     if !(spacing.is_finite() && spacing > 0.0) {
         return Err(LatticeError::BadSpacing(spacing).into());
     }
-    let nodes = NODES_PER_SQUARE * area(shape) / (spacing * spacing);
+    let nodes = (NODES_PER_SQUARE * area(shape) / spacing / spacing).max(places_of_shape(shape, spacing));
     if nodes > Lattice::MAX_SAMPLES as f64 {
         return Err(LatticeError::TooMany(nodes).into());
     }

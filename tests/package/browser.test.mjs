@@ -1,53 +1,25 @@
 // The package in a plain page, without a bundler: with and without cross-origin isolation, and from another origin.
 import assert from 'node:assert/strict';
-import { createReadStream, existsSync, statSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { extname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { launch } from '../page/browser.mjs';
 import { install } from './install.mjs';
+import { inPage as evaluate, serve } from './pages.mjs';
 
 const { home } = install();
-const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
-const ISOLATED = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
-const FOR_ALL = { 'Access-Control-Allow-Origin': '*', 'Cross-Origin-Resource-Policy': 'cross-origin' };
-
-/** Serves the package's files, and an empty page at /. */
-async function serve(headers) {
-  const server = createServer(({ url }, response) => {
-    const path = new URL(url, 'http://here').pathname;
-    const file = join(home, path);
-    if (path === '/') return response.writeHead(200, { ...headers, 'Content-Type': 'text/html' }).end('<!doctype html>');
-    if (!existsSync(file) || !statSync(file).isFile()) return response.writeHead(404, headers).end();
-    response.writeHead(200, { ...headers, 'Content-Type': TYPES[extname(file)] ?? 'text/plain' });
-    return createReadStream(file).pipe(response);
-  });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  return { origin: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
-}
 
 let chromium;
 const servers = {};
 before(async () => {
   chromium = await launch();
-  servers.isolated = await serve({ ...ISOLATED, ...FOR_ALL });
-  servers.plain = await serve(FOR_ALL);
+  servers.isolated = await serve(home, { isolated: true });
+  servers.plain = await serve(home, { isolated: false });
 });
 after(async () => {
   await chromium.close();
   Object.values(servers).forEach((server) => server.close());
 });
 
-/** Runs `action(module)` in a page of `server` with a module of the package, which comes from `origin`. */
-async function inPage(server, origin, file, action) {
-  const page = await chromium.newPage();
-  try {
-    await page.goto(`${server.origin}/`);
-    return await page.evaluate(`import(${JSON.stringify(`${origin}/dist/${file}`)}).then(${action})`);
-  } finally {
-    await page.close();
-  }
-}
+const inPage = (server, origin, file, action) => evaluate(chromium, server, origin, file, action);
 
 /** A tetrahedron asked twice, and a cloud without normals, for which more is loaded; run in the page. */
 const ask = async ({ init }) => {

@@ -10,7 +10,7 @@ pub use hollow::{Drain, HollowConfig, hollow};
 
 use super::sharp::{Limits, sharpen};
 use super::{SurfaceConfig, SurfaceError, check_sharp};
-use crate::data::{LatticeError, Monitor, SurfaceMesh};
+use crate::data::{LatticeError, Monitor, Parts, SurfaceMesh};
 use crate::distance::DistanceTree;
 use crate::levelset::{SurfaceGrid, TraceError, trace_surface};
 use crate::math::{Aabb, Vec3};
@@ -128,6 +128,7 @@ fn at_distance(
     let bounds = bounds_of(field)?.padded(distance.max(0.0));
     let spacing = spacing(bounds, config.resolution, config.spacing)?;
     check_sharp(config.sharp)?;
+    let monitor = &Parts::new(monitor);
     let tree = DistanceTree::new(field.shape());
     let region = Region { field, tree, kept, drains: Vec::new(), spacing };
     let mesh = surface_of(&region, bounds, config.sharp, monitor)?;
