@@ -138,7 +138,7 @@ test('a page that is hidden or frozen during a call gets its answer', async () =
     const begin = async () => {
       const { init } = await import('/dist/index.js');
       const soup = await (await init()).Soup.from(loose(3000));
-      globalThis.call = soup.voxelize({ resolution: 160 });
+      globalThis.call = soup.voxelize({ resolution: 40 });
     };
     await page.evaluate(begin);
     const other = await chromium.newPage();
@@ -147,7 +147,7 @@ test('a page that is hidden or frozen during a call gets its answer', async () =
     await session.send('Page.setWebLifecycleState', { state: 'frozen' });
     await new Promise((resolve) => setTimeout(resolve, 500));
     await session.send('Page.setWebLifecycleState', { state: 'active' });
-    assert.deepEqual(await page.evaluate(() => call.then(({ counts }) => counts)), [160, 160, 160]);
+    assert.deepEqual(await page.evaluate(() => call.then(({ counts }) => counts)), [40, 40, 40]);
     await other.close();
   } finally {
     await page.close();
