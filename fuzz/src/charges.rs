@@ -5,7 +5,7 @@ use super::source::Source;
 use fast_winding::charge::{
     ChargeConfig, ElectricField, Integration, Integrator, LineConfig, Refinement, Solver, trace,
 };
-use fast_winding::data::{Silent, TriangleSoup};
+use fast_winding::data::Silent;
 use fast_winding::math::Vec3;
 use fast_winding::texture::{AtlasConfig, ProxyConfig, ProxySides, SoupLinesConfig, TextureConfig, texture};
 use std::sync::Arc;
@@ -37,13 +37,9 @@ fn line_config(source: &mut Source) -> LineConfig {
     }
 }
 
-fn soup(source: &mut Source) -> Made<TriangleSoup> {
-    source.soup()
-}
-
 pub fn fields(bytes: &[u8]) {
     let mut source = Source::new(bytes);
-    let Made { shape: soup, is_tame } = soup(&mut source);
+    let Made { shape: soup, is_tame } = source.soup();
     let config = charge_config(&mut source);
     let made = ElectricField::solve(Arc::new(soup), &config, &Watch::new(source.byte()));
     let Ok(field) = made else { return };
@@ -51,7 +47,8 @@ pub fn fields(bytes: &[u8]) {
     let queries = source.queries(bounds, 6);
     let values = field.potential(&queries);
     let vectors = field.field(&queries);
-    if is_tame {
+    let is_moderate = (1e-100..1e100).contains(&config.total.abs());
+    if is_tame && is_moderate {
         let total: f64 = field.charges().iter().sum();
         assert!((total - config.total).abs() <= 1e-6 * config.total.abs(), "charges add up to {total}");
         assert!(
@@ -69,7 +66,7 @@ pub fn fields(bytes: &[u8]) {
 
 pub fn textures(bytes: &[u8]) {
     let mut source = Source::new(bytes);
-    let Made { shape: soup, is_tame } = soup(&mut source);
+    let Made { shape: soup, is_tame } = source.soup();
     let size = soup.bounds().size().max_element();
     let config = TextureConfig {
         proxy: ProxyConfig {

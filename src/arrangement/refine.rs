@@ -10,8 +10,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 const ROUNDS: usize = 40;
 /// A triangle is given up that has so many times the most events it had before, and this many more. Others have fewer from round to round,
 /// or some more where segments come to light that others have hidden.
-const GROWTH: usize = 4;
-const FEW: usize = 256;
+const GROWTH: usize = 2;
+const FEW: usize = 64;
 /// Triangles that make a task.
 const TASK: usize = 16;
 /// Triangles between two reports.

@@ -47,10 +47,10 @@ pub fn check(
         return Err(CheckError::Cloud { points: field.shape().len() });
     };
     let limit = config.limit;
+    let monitor = &Parts::new(monitor);
     let stage = |name: &'static str, from: f64, to: f64| {
         move |fraction: f64, _: &str| monitor.report(from + (to - from) * fraction, name).is_ok()
     };
-    let monitor = &Parts::new(monitor);
     monitor.report(0.0, "faces")?;
     let faces = faces::faces(soup);
     let boxes = map_items(soup.len(), |t| Aabb::around(soup.corners(t)));
