@@ -14,6 +14,8 @@ const ROUNDING: f64 = 1e-9;
 /// Winding numbers nearer to 1/2 than this may be on either side of it by rounding.
 const DOUBTFUL: f64 = 1e-9;
 const SAMPLES: usize = 5;
+/// On a surface, and so near to it that rounding counts, in parts of the size, sides are another matter.
+const NEAR: f64 = 1e-9;
 
 /// Constructors of soups tell what is wrong, and only that.
 fn assert_errors_are_true(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) {
@@ -71,7 +73,8 @@ fn field(source: &mut Source, shape: Shape, is_tame: bool, config: FieldConfig, 
         if is_tame && matches!(shape, Shape::Soup(_)) {
             assert_eq!(singly[k], together[k], "{q} is inside or not, alone and among others");
         }
-        if !is_tame || k >= generic || !q.is_finite() {
+        let is_near = || nearest(&shape, *q) <= NEAR * field.bounds().diagonal();
+        if !is_tame || k >= generic || !q.is_finite() || is_near() {
             continue;
         }
         let direct = sum(*q);
@@ -103,7 +106,12 @@ fn field(source: &mut Source, shape: Shape, is_tame: bool, config: FieldConfig, 
     }
     let mut saved = Vec::new();
     field.save(&mut saved).expect("memory takes what is written");
-    let loaded = WindingField::load(&saved).unwrap_or_else(|error| panic!("a field that was saved: {error}"));
+    // Areas beyond 32-bit floats make clusters that are not saved.
+    let loaded = match WindingField::load(&saved) {
+        Err(error) if is_tame => panic!("a field that was saved: {error}"),
+        Err(_) => return,
+        Ok(loaded) => loaded,
+    };
     for q in &queries {
         let [before, after] = [&field, &loaded].map(|field| field.at(*q, Accuracy::default()).to_bits());
         assert_eq!(before, after, "a loaded field answers otherwise at {q}");
