@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-9;
 const DOUBTFUL: f64 = 1e-9;
 const SAMPLES: usize = 5;
 /// On a surface, and so near to it that rounding counts, in parts of the size, sides are another matter.
-const NEAR: f64 = 1e-9;
+const NEAR: f64 = 1e-6;
 
 /// Constructors of soups tell what is wrong, and only that.
 fn assert_errors_are_true(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) {
