@@ -61,7 +61,7 @@ pub fn layers(bytes: &[u8]) {
 /// Whether a lattice of such cells is small.
 pub fn too_few_to_wait_for(spacing: f64, field: &WindingField) -> bool {
     const CELLS: f64 = 30.0;
-    !(spacing > 0.0) || field.bounds().size().max_element() / spacing < CELLS
+    spacing.is_nan() || spacing <= 0.0 || field.bounds().size().max_element() / spacing < CELLS
 }
 
 fn assert_rings(layer: &Layer) {

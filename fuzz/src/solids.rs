@@ -85,7 +85,7 @@ pub fn booleans(bytes: &[u8]) {
     let [a, b] = [a.shape, b.shape].map(|shape| WindingField::new(shape, FieldConfig::default()));
     let op = source.pick(&[BooleanOp::Union, BooleanOp::Intersection, BooleanOp::Difference]);
     // Where nothing is open, no tolerance counts.
-    let tolerance = source.option(&[0.2, 0.5]).filter(|t| closed || !(*t < 0.1) || *t <= 0.0);
+    let tolerance = source.option(&[0.2, 0.5]).filter(|t| closed || t.is_nan() || *t >= 0.1 || *t <= 0.0);
     let config = BooleanConfig { tolerance, resolution: Some(source.below(12)) };
     let watch = Watch::new(source.byte());
     let Ok(mesh) = boolean(&a, &b, op, &config, &watch) else { return };

@@ -30,7 +30,9 @@ pub fn level_sets(bytes: &[u8]) {
     let config = SurfaceConfig {
         resolution: resolution(&mut source),
         spacing: spacing(&mut source, &field),
-        level: source.option(&[0.5, 0.4, 0.3, 1.5]).filter(|level| !(level.abs() < 0.1) || *level == 0.0),
+        level: source
+            .option(&[0.5, 0.4, 0.3, 1.5])
+            .filter(|level| level.is_nan() || level.abs() >= 0.1 || *level == 0.0),
         min_component: source.option(&[0.0, 0.1]),
         smoothing: source.option(&[0.5, 1.0]),
         trim: source.option(&[1.5, 3.0]),

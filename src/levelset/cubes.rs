@@ -150,7 +150,8 @@ impl Vertices {
                     |part: f64, stage: &str| monitor.report((done + share * part) / total, stage).is_ok();
                 let crossings = level_set.crossings(&edges, &of_all)?;
                 // Where rounding leaves no number, as of shapes of no size, the crossing is at the start.
-                let place = |t: f64| t.max(CLEARANCE).min(1.0 - CLEARANCE);
+                let number = |t: f64| if t.is_nan() { 0.0 } else { t };
+                let place = |t: f64| number(t).clamp(CLEARANCE, 1.0 - CLEARANCE);
                 positions.extend(edges.drain(..).zip(crossings).map(|(edge, t)| edge.at(place(t))));
             }
         }

@@ -97,7 +97,7 @@ pub fn offset(
     config: &OffsetConfig,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, OffsetError> {
-    if !(config.distance.abs() <= LARGEST_COORDINATE) {
+    if !(0.0..=LARGEST_COORDINATE).contains(&config.distance.abs()) {
         return Err(OffsetError::BadDistance(config.distance));
     }
     at_distance(field, Kept::UpTo(config.distance), config, monitor)

@@ -27,7 +27,7 @@ pub fn cells_near(
     let first = (cell_of(bounds.min) / f64::from(LARGEST)).floor();
     let counts = (cell_of(bounds.max) / f64::from(LARGEST)).floor() - first + 1.0;
     // Also where they are no number, as the bounds are infinite.
-    if !(counts.element_product() <= (Lattice::MAX_SAMPLES >> 8) as f64) {
+    if !(0.0..=(Lattice::MAX_SAMPLES >> 8) as f64).contains(&counts.element_product()) {
         return Err(LatticeError::TooMany(counts.element_product() * f64::from(LARGEST).powi(3)).into());
     }
     let [nx, ny, nz] = counts.to_array().map(|c| c as i32);
