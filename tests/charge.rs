@@ -467,7 +467,7 @@ fn bad_input_is_named() {
     let message = solve(flat, as_is()).unwrap();
     assert_eq!(message, "none of the 1 triangles of the soup has an area");
     let message = solve(sphere(0), ChargeConfig { tolerance: f64::NAN, ..as_is() }).unwrap();
-    assert_eq!(message, "tolerance is NaN: it has to be greater than 0");
+    assert_eq!(message, "tolerance is NaN: it has to be greater than 0 and less than 1");
     let cancelled =
         ElectricField::solve(Arc::new(sphere(3)), &as_is(), &|fraction: f64, _: &str| fraction < 0.3);
     assert!(matches!(cancelled, Err(ChargeError::Cancelled(_))));

@@ -156,4 +156,29 @@ fn reading_takes_memory_in_proportion_to_the_file() {
         let bound = 4 * (64 * bytes.len() + (1 << 20));
         assert!(peak <= bound, "{name}: {peak} bytes for {}", bytes.len());
     }
+    for (name, start) in beginnings_of_zeros() {
+        let mut bytes = vec![0; if start.is_empty() { 1 << 30 } else { 32 << 20 }];
+        bytes[..start.len()].copy_from_slice(&start);
+        let peak = peak_of_reading(&bytes);
+        assert!(peak <= 4 * (32 << 20), "{name}: {peak} bytes");
+    }
+}
+
+/// What a file of zeros may begin with, so that it is taken for one of a format: as many triangles or a billion points claimed. Where it
+/// begins with nothing, no format is found, however long it is.
+fn beginnings_of_zeros() -> Vec<(&'static str, Vec<u8>)> {
+    let double = "property double x\nproperty double y\nproperty double z\n";
+    let billion = |list: &str| format!("element vertex 1000000000\n{double}element face 1000000000\n{list}");
+    vec![
+        ("zeros", vec![]),
+        ("stl", binary_stl((32 << 20) / 50 - 2, &[])),
+        ("ply", ply("binary_little_endian", &billion(LIST), &[])),
+        ("ply of faces", ply("binary_big_endian", &format!("element face 1000000000\n{LONG_LIST}"), &[])),
+        ("ply text", ply("ascii", &billion(LIST), &[])),
+        ("obj", b"v 0 0 0\nf 1 1 1\n".to_vec()),
+        ("off", b"OFF\n1000000000 1000000000 0\n".to_vec()),
+        ("xyz", b"0 0 0\n1 1 1\n".to_vec()),
+        ("text stl", b"solid\nfacet normal 0 0 0\n".to_vec()),
+        ("archive", b"PK\x03\x04".to_vec()),
+    ]
 }

@@ -1,4 +1,5 @@
 // The page's side: one call at a time goes to the worker, the others wait here, where they can still be withdrawn.
+import { lockOf } from './alive.js';
 import type { CallOptions, Info, OrientOptions } from './api.js';
 import { WindingError } from './error.js';
 import type { Caller } from './held.js';
@@ -38,6 +39,8 @@ export class Client implements Caller {
   private readonly crashes: BroadcastChannel;
   private settleStart!: { resolve(): void; reject(error: WindingError): void };
   private counter = 0;
+  /** Ends the watch over the threads of the worker. */
+  private watch = new AbortController();
 
   constructor(
     private readonly platform: Platform,
@@ -157,6 +160,7 @@ export class Client implements Caller {
 
   /** Ends a worker that cannot be told to stop, and makes its shapes again in a new one, before the calls that wait. */
   private replaceWorker(): void {
+    this.watch.abort();
     this.port.terminate();
     const lost = this.ready!;
     this.ready = undefined;
@@ -174,6 +178,7 @@ export class Client implements Caller {
   private hear(message: FromWorker): void {
     if (message.type === 'ready') {
       this.ready = message;
+      this.watchThreads(message.threads);
       this.settleStart.resolve();
       return this.next();
     }
@@ -193,6 +198,15 @@ export class Client implements Caller {
     this.next();
   }
 
+  private watchThreads(count: number): void {
+    this.watch = new AbortController();
+    const { channel } = this.startMessage;
+    for (const thread of ['engine' as const, ...Array(count).keys()]) {
+      const tell = () => this.crash('a thread of the engine was ended');
+      this.platform.whenReleased?.(lockOf(channel, thread), this.watch.signal, tell);
+    }
+  }
+
   private crash(message: string): void {
     this.end(new WindingError('Crashed', `${message}; call init again`));
   }
@@ -201,6 +215,7 @@ export class Client implements Caller {
   private end(error: WindingError): void {
     if (this.ended) return;
     this.ended = error;
+    this.watch.abort();
     this.port.terminate();
     this.crashes.close();
     this.onEnd();

@@ -1,3 +1,4 @@
+import { whenReleased } from './alive.js';
 import { initFor } from './init.js';
 import type { Platform, Port, PortListener } from './protocol.js';
 
@@ -37,6 +38,7 @@ const browser: Platform = {
       ? undefined
       : 'the page is not cross-origin isolated (it needs the headers Cross-Origin-Opener-Policy: same-origin and ' +
         'Cross-Origin-Embedder-Policy: require-corp)',
+  whenReleased,
 };
 
 /** Starts the engine in a worker, with threads where possible. */

@@ -7,6 +7,8 @@ export interface PoolMessage {
   memory: WebAssembly.Memory;
   receiver: number;
   channel: string;
+  /** Its place in the pool. */
+  thread: number;
   /** The part of the WebAssembly that is loaded when first needed, once it is there. */
   more: SharedArrayBuffer;
 }
@@ -49,10 +51,10 @@ export function poolStarter(channel: string, more: SharedArrayBuffer): PoolStart
   const workers: Worker[] = [];
   return async (module, memory, builder) => {
     const receiver = builder.receiver();
-    const message: PoolMessage = { type: 'fast-winding-pool-start', module, memory, receiver, channel, more };
+    const message = (thread: number): PoolMessage => ({ type: 'fast-winding-pool-start', module, memory, receiver, channel, thread, more });
     try {
       for (let thread = 0; thread < builder.numThreads(); thread++) workers.push(newWorker());
-      await Promise.all(workers.map((worker) => joined(worker, message)));
+      await Promise.all(workers.map((worker, thread) => joined(worker, message(thread))));
     } catch (error) {
       workers.forEach((worker) => worker.terminate());
       throw error;

@@ -28,7 +28,7 @@ export interface StartMessage {
   threads: number;
   reason: string;
   wasmUrl: string | undefined;
-  /** Name of the channel on which a pool worker says that it trapped. */
+  /** Name of the channel on which a pool worker says that it trapped, and of the locks that its threads hold. */
   channel: string;
 }
 
@@ -75,4 +75,6 @@ export interface Platform {
   absoluteUrl(url: string | URL): string;
   /** Why memory cannot be shared between threads here, if it cannot. */
   obstacleToThreads(): string | undefined;
+  /** Calls `tell` once no thread holds the lock of that name, where there are such; not after `signal`. */
+  whenReleased?(name: string, signal: AbortSignal, tell: () => void): void;
 }

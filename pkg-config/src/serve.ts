@@ -1,4 +1,5 @@
 // The worker's side: starts the engine and answers calls, one at a time. The same in a browser and in Node.
+import { hold, lockOf } from './alive.js';
 import { describeError } from './error.js';
 import { isMissing, provide, sharedPart, useMain } from './more.js';
 import { Engine, type Glue } from './engine.js';
@@ -105,6 +106,7 @@ export function serve(host: Host): (message: ToWorker) => Promise<void> {
       const [started, ready] = await start(host, message);
       engine = started;
       loadMore = () => host.more(ready.threads > 0 ? 'threads' : 'single', message.wasmUrl);
+      await hold(lockOf(message.channel, 'engine'));
       host.post(ready, []);
     } catch (error) {
       const why = error instanceof Error ? error.message : String(error);

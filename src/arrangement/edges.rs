@@ -54,8 +54,10 @@ fn in_steps(edge: [u32; 2], of_edge: impl Iterator<Item = u32>, points: &Points)
         })
         .collect();
     placed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
-    let mut chain: Vec<(u32, i64)> =
-        placed.iter().map(|(share, _, point)| (*point, (share * side).round() as i64)).collect();
+    let mut chain: Vec<(u32, i64)> = placed
+        .iter()
+        .map(|(share, _, point)| (*point, (share * side).round().clamp(0.0, side) as i64))
+        .collect();
     let mut least = 1;
     for (_, step) in &mut chain {
         *step = (*step).max(least);

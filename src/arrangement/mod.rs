@@ -15,7 +15,7 @@ mod triangulate;
 mod twofold;
 
 use crate::bvh::Bvh;
-use crate::data::{Cancelled, Monitor, map_items, map_tasks};
+use crate::data::{Cancelled, Monitor, Parts, map_items, map_tasks};
 use crate::math::{Aabb, Vec3, normal_signs};
 use contacts::{Contacts, Key, Triangles};
 use edges::Edges;
@@ -54,6 +54,9 @@ pub struct Arrangement {
 const LEAF: usize = 4;
 /// Pairs that make a task.
 const PAIRS: usize = 1024;
+/// Where in the progress the pairs are known, and the triangles cut but for what coplanar ones share.
+const MEETING: f64 = 0.4;
+const CUT: f64 = 0.9;
 /// Pairs between two reports.
 const REPORT: usize = 1 << 18;
 
@@ -68,6 +71,8 @@ pub fn arrange(
     pairs: Pairs,
     monitor: &dyn Monitor,
 ) -> Result<Arrangement, Cancelled> {
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, MEETING);
     monitor.report(0.0, "meeting triangles")?;
     let places = |t: usize| triangles[t].map(|v| positions[v as usize]);
     let has_area = map_items(triangles.len(), |t| normal_signs(places(t)) != [0; 3]);
@@ -94,7 +99,9 @@ pub fn arrange(
     let mut changed: Vec<u32> =
         work.segments.iter().map(|s| s.0).chain(work.inside.iter().map(|i| i.0)).collect();
     changed.extend(work.around(&work.edges.all()));
+    monitor.begin(MEETING, CUT);
     work.refine(changed, monitor)?;
+    monitor.begin(CUT, 1.0);
     found.coplanar.sort_unstable();
     work.share_cuts(&found.coplanar, monitor)?;
     Ok(finish(work, degenerate))
@@ -183,6 +190,7 @@ fn start<'a>(positions: Vec<Vec3>, corners: &'a [[u32; 3]], found: &Contacts) ->
         inside,
         pieces: Default::default(),
         wishes: Vec::new(),
+        most_events: Default::default(),
         unresolved: 0,
     }
 }

@@ -8,6 +8,10 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Rounds of cutting; what is then still crossed stays so. Two or three are usual.
 const ROUNDS: usize = 40;
+/// A triangle is given up that has so many times the most events it had before, and this many more. Others have fewer from round to round,
+/// or some more where segments come to light that others have hidden.
+const GROWTH: usize = 2;
+const FEW: usize = 64;
 /// Triangles that make a task.
 const TASK: usize = 16;
 /// Triangles between two reports.
@@ -29,7 +33,9 @@ pub struct Work<'a> {
     pub pieces: FxHashMap<u32, Pieces>,
     /// Edges wanted in triangles. Sorted.
     pub wishes: Vec<Record>,
-    /// Segments that were given up.
+    /// The most events that each triangle had in a round; `None` once it is given up.
+    pub most_events: FxHashMap<u32, Option<usize>>,
+    /// Segments and triangles that were given up.
     pub unresolved: usize,
 }
 
@@ -92,7 +98,9 @@ impl Work<'_> {
                     some.iter().map(|t| self.cut(*t)).collect::<Vec<_>>()
                 });
                 for (triangle, pieces) in triangles.iter().zip(pieces.into_iter().flatten()) {
-                    events.extend(&pieces.events);
+                    if self.settles(*triangle, pieces.events.len()) {
+                        events.extend(&pieces.events);
+                    }
                     self.pieces.insert(*triangle, pieces);
                 }
             }
@@ -102,6 +110,23 @@ impl Work<'_> {
         }
         self.unresolved += dirty.len();
         Ok(())
+    }
+
+    /// Whether a triangle that has so many events now is on the way to none. Where rounding lets each segment run through nearly every
+    /// point, as in needles with very many cuts, they multiply from round to round: such a triangle stays as it is then, and counts
+    /// as unresolved.
+    fn settles(&mut self, triangle: u32, events: usize) -> bool {
+        let most = match self.most_events.get(&triangle) {
+            None => Some(events),
+            Some(None) => None,
+            Some(Some(most)) if events > GROWTH * most + FEW => {
+                self.unresolved += 1;
+                None
+            }
+            Some(Some(most)) => Some(events.max(*most)),
+        };
+        self.most_events.insert(triangle, most);
+        most.is_some()
     }
 
     /// Splits segments; gives the triangles that this concerns.

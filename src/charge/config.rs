@@ -67,7 +67,9 @@ impl ChargeConfig {
             if is_good { Ok(()) } else { Err(ChargeError::BadNumber { name, value, accepted }) }
         };
         let Opening { beta, near } = self.opening;
-        within("tolerance", self.tolerance, self.tolerance > 0.0, "greater than 0")?;
+        // From 1 on no charge at all would do.
+        let is_share = self.tolerance > 0.0 && self.tolerance < 1.0;
+        within("tolerance", self.tolerance, is_share, "greater than 0 and less than 1")?;
         within("total", self.total, self.total.is_finite() && self.total != 0.0, "finite and not 0")?;
         within("beta", beta, beta >= 1.0, "1 or more")?;
         within("near", near, near >= 1.0, "1 or more")

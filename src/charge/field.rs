@@ -13,7 +13,7 @@ use super::sum::{Charged, Value, series_of_elements};
 use super::system::{Kept, Matrix, System};
 use super::walk::{Block, Lists, Opening};
 use crate::bvh::{morton_code, sorted_codes};
-use crate::data::{BLOCK, Monitor, TriangleSoup, map_items, map_tasks};
+use crate::data::{BLOCK, Monitor, Parts, TriangleSoup, map_items, map_tasks};
 use crate::math::{Aabb, Vec3};
 use std::sync::Arc;
 
@@ -95,6 +95,7 @@ impl ElectricField {
         monitor: &dyn Monitor,
     ) -> Result<Self, ChargeError> {
         config.check()?;
+        let monitor = &Parts::new(monitor);
         monitor.report(0.0, "charges")?;
         let elements = Elements::new(&soup, config.refinement.as_ref());
         if elements.is_empty() {

@@ -22,7 +22,7 @@ pub use report::{
 };
 
 use crate::bvh::Bvh;
-use crate::data::{LeftOut, Monitor, Shape, Topology, TriangleSoup, map_items};
+use crate::data::{LeftOut, Monitor, Parts, Shape, Topology, TriangleSoup, map_items};
 use crate::math::{Aabb, Vec3};
 use crate::winding::{WindingField, weld};
 use faces::Face;
@@ -47,6 +47,7 @@ pub fn check(
         return Err(CheckError::Cloud { points: field.shape().len() });
     };
     let limit = config.limit;
+    let monitor = &Parts::new(monitor);
     let stage = |name: &'static str, from: f64, to: f64| {
         move |fraction: f64, _: &str| monitor.report(from + (to - from) * fraction, name).is_ok()
     };

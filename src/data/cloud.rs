@@ -1,9 +1,9 @@
-use super::{Warning, WarningKind};
+use super::{LARGEST_COORDINATE, Warning, WarningKind, is_usable};
 use crate::math::{Aabb, Vec3};
 
 /// Points, perhaps with normals and areas, as a scanner or a file gives them.
 ///
-/// Guarantees: every point is finite; normals and areas, where present, are as many as the points.
+/// Guarantees: no coordinate is beyond [`LARGEST_COORDINATE`]; normals and areas, where present, are as many as the points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCloud {
     points: Vec<Vec3>,
@@ -16,7 +16,9 @@ pub struct PointCloud {
 pub enum CloudError {
     #[error("there are {found} {what} for {points} points: one for each point is needed")]
     LengthMismatch { what: &'static str, found: usize, points: usize },
-    #[error("point {point} is not finite: every coordinate must be a finite number")]
+    #[error(
+        "point {point} is not finite, or too far away: every coordinate must be a number from −{LARGEST_COORDINATE:e} to {LARGEST_COORDINATE:e}"
+    )]
     NonFinitePoint { point: usize },
     #[error("the normal of point {point} is zero or not finite")]
     BadNormal { point: usize },
@@ -36,7 +38,7 @@ fn keep<T>(mut values: Vec<T>, kept: &[bool]) -> Vec<T> {
 }
 
 impl PointCloud {
-    /// Makes a cloud of what is usable: points that are not finite are dropped and counted; when any of the
+    /// Makes a cloud of what is usable: points that are not finite, or too far away, are dropped and counted; when any of the
     /// normals is zero or not finite, its point is dropped and counted too.
     ///
     /// # Errors
@@ -55,7 +57,7 @@ impl PointCloud {
                 return Err(CloudError::BadArea { point, area: areas[point] });
             }
         }
-        let finite: Vec<bool> = points.iter().map(|p| p.is_finite()).collect();
+        let finite: Vec<bool> = points.iter().map(|p| is_usable(*p)).collect();
         let oriented = |i: usize| normals.as_ref().is_none_or(|n| n[i].try_normalize().is_some());
         let kept: Vec<bool> = (0..points.len()).map(|i| finite[i] && oriented(i)).collect();
         let lost_points = finite.iter().filter(|f| !**f).count();
@@ -111,7 +113,8 @@ impl OrientedCloud {
     /// Makes an oriented cloud; normals point outward and are scaled to length 1, areas are in square millimetres.
     ///
     /// # Errors
-    /// If and only if the lengths differ, a point is not finite, a normal is zero or not finite, or an area is
+    /// If and only if the lengths differ, a point has a coordinate that is not finite or beyond
+    /// [`LARGEST_COORDINATE`], a normal is zero or not finite, or an area is
     /// negative or not finite.
     pub fn new(
         points: Vec<Vec3>,
@@ -120,7 +123,7 @@ impl OrientedCloud {
     ) -> Result<OrientedCloud, CloudError> {
         check_length("normals", normals.len(), points.len())?;
         check_length("areas", areas.len(), points.len())?;
-        if let Some(point) = points.iter().position(|p| !p.is_finite()) {
+        if let Some(point) = points.iter().position(|p| !is_usable(*p)) {
             return Err(CloudError::NonFinitePoint { point });
         }
         for (point, normal) in normals.iter_mut().enumerate() {
@@ -143,7 +146,7 @@ impl OrientedCloud {
     ) -> Result<OrientedCloud, CloudError> {
         check_length("normals", normals.len(), points.len())?;
         check_length("areas", areas.len(), points.len())?;
-        if let Some(point) = points.iter().position(|p| !p.is_finite()) {
+        if let Some(point) = points.iter().position(|p| !is_usable(*p)) {
             return Err(CloudError::NonFinitePoint { point });
         }
         let is_unit = |n: &Vec3| (n.length_squared() - 1.0).abs() < 1e-9;

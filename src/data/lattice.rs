@@ -27,6 +27,9 @@ impl Lattice {
     /// The largest number of samples a lattice may have: 2³¹, so that bytes of it stay below 4 GiB.
     pub const MAX_SAMPLES: usize = 1 << 31;
 
+    /// Nodes that are sampled for each square of a cell's edge: bricks of 64 that a surface crosses askew.
+    const NODES_PER_SQUARE: f64 = 12.0;
+
     /// Cubic cells that fill `bounds`, `resolution` of them along the longest side; samples at the cell centres.
     ///
     /// # Errors
@@ -63,6 +66,16 @@ impl Lattice {
         }
         let origin = bounds.center() - 0.5 * spacing * (cells - Vec3::ONE);
         Ok(Lattice { origin, spacing: Vec3::splat(spacing), counts: cells.to_array().map(|c| c as usize) })
+    }
+
+    /// Cells of an edge of `spacing` that a surface of `area` passes through are to be fewer than samples may be: what level sets of
+    /// clouds reach that have far larger areas than their points suggest is not known before.
+    ///
+    /// # Errors
+    /// If and only if they are not, or no number.
+    pub fn check_area(area: f64, spacing: f64) -> Result<(), LatticeError> {
+        let nodes = Self::NODES_PER_SQUARE * area / spacing / spacing;
+        if nodes <= Self::MAX_SAMPLES as f64 { Ok(()) } else { Err(LatticeError::TooMany(nodes)) }
     }
 
     /// `counts` cells that fill `bounds` exactly (not cubic in general); samples at the cell centres.

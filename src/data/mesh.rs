@@ -36,7 +36,7 @@ impl SurfaceMesh {
 
 impl From<SurfaceMesh> for TriangleSoup {
     fn from(mesh: SurfaceMesh) -> TriangleSoup {
-        TriangleSoup::new(mesh.positions, mesh.triangles)
+        TriangleSoup::derived(mesh.positions, mesh.triangles)
             .expect("meshes of this crate are finite and indexed")
     }
 }

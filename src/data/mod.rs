@@ -14,6 +14,7 @@ mod soup;
 mod soup_cloud;
 mod topology;
 mod transform;
+mod usable;
 mod voxels;
 mod warning;
 
@@ -33,6 +34,8 @@ pub(crate) use sets::{Sets, TwoKinds};
 pub use soup::{SoupError, TriangleSoup};
 pub(crate) use topology::{Edge, LeftOut, Topology};
 pub use transform::TransformError;
+pub use usable::LARGEST_COORDINATE;
+use usable::is_usable;
 pub use voxels::{VoxelDataError, VoxelRows, Voxels};
 pub use warning::{Warning, WarningKind};
 

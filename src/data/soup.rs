@@ -1,10 +1,11 @@
-use super::{Warning, WarningKind};
+use super::{LARGEST_COORDINATE, Warning, WarningKind, is_usable};
 use crate::math::{Aabb, Vec3};
 
 /// Triangles without any promise about how they fit together: holes, flips, duplicates and
 /// self-intersections are all allowed.
 ///
-/// Guarantees: every index names a vertex, and every vertex that a triangle uses is finite.
+/// Guarantees: every index names a vertex, and every vertex that a triangle uses is finite. Of soups that are given, no coordinate of
+/// these is beyond [`LARGEST_COORDINATE`]; what is made of them may reach a little farther.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleSoup {
     positions: Vec<Vec3>,
@@ -16,7 +17,9 @@ pub struct TriangleSoup {
 pub enum SoupError {
     #[error("triangle {triangle} names vertex {index}, but there are only {vertices} vertices (0 to {max})", max = vertices.saturating_sub(1))]
     IndexOutOfRange { triangle: usize, index: u32, vertices: usize },
-    #[error("vertex {vertex} is not finite: every coordinate must be a finite number")]
+    #[error(
+        "vertex {vertex} is not finite, or too far away: every coordinate must be a number from −{LARGEST_COORDINATE:e} to {LARGEST_COORDINATE:e}"
+    )]
     NonFiniteVertex { vertex: usize },
     #[error("{0} vertices are too many: at most 4,294,967,295 can be indexed")]
     TooManyVertices(usize),
@@ -27,17 +30,30 @@ impl TriangleSoup {
     /// seen from outside).
     ///
     /// # Errors
-    /// If and only if an index names no vertex, or a triangle uses a vertex that is not finite.
+    /// If and only if an index names no vertex, or a triangle uses a vertex with a coordinate that is not finite or beyond
+    /// [`LARGEST_COORDINATE`].
     pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriangleSoup, SoupError> {
         check_indices(&positions, &triangles)?;
-        match first_non_finite(&positions, &triangles) {
+        match first_not(is_usable, &positions, &triangles) {
+            Some(vertex) => Err(SoupError::NonFiniteVertex { vertex }),
+            None => Ok(TriangleSoup { positions, triangles }),
+        }
+    }
+
+    /// As [`TriangleSoup::new`] of vertices that were made of those of a shape, and may lie around it.
+    ///
+    /// # Errors
+    /// If and only if an index names no vertex, or a triangle uses a vertex that is not finite.
+    pub(crate) fn derived(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<TriangleSoup, SoupError> {
+        check_indices(&positions, &triangles)?;
+        match first_not(Vec3::is_finite, &positions, &triangles) {
             Some(vertex) => Err(SoupError::NonFiniteVertex { vertex }),
             None => Ok(TriangleSoup { positions, triangles }),
         }
     }
 
     /// Makes a soup of arrays that a program hands over: a wrong index is its mistake, but triangles with a vertex that
-    /// is not finite are dropped and counted in the warnings.
+    /// is not finite, or too far away, are dropped and counted in the warnings.
     ///
     /// # Errors
     /// If and only if an index names no vertex, or no triangle is left of those given.
@@ -46,7 +62,7 @@ impl TriangleSoup {
         triangles: Vec<[u32; 3]>,
     ) -> Result<(TriangleSoup, Vec<Warning>), SoupError> {
         check_indices(&positions, &triangles)?;
-        let non_finite = first_non_finite(&positions, &triangles);
+        let non_finite = first_not(is_usable, &positions, &triangles);
         let (soup, warnings) = TriangleSoup::cleaned(positions, triangles);
         match non_finite {
             Some(vertex) if soup.is_empty() => Err(SoupError::NonFiniteVertex { vertex }),
@@ -54,14 +70,14 @@ impl TriangleSoup {
         }
     }
 
-    /// Makes a soup of what is usable: triangles with an index out of range or a vertex that is not finite are
-    /// dropped and counted in the warnings.
+    /// Makes a soup of what is usable: triangles with an index out of range or a vertex that is not finite, or
+    /// too far away, are dropped and counted in the warnings.
     pub fn cleaned(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> (TriangleSoup, Vec<Warning>) {
         let (mut out_of_range, mut non_finite) = (0, 0);
         triangles.retain(|corners| {
             let vertices = corners.map(|i| positions.get(i as usize));
             let in_range = vertices.iter().all(|v| v.is_some());
-            let finite = vertices.iter().flatten().all(|v| v.is_finite());
+            let finite = vertices.iter().flatten().all(|v| is_usable(**v));
             out_of_range += usize::from(!in_range);
             non_finite += usize::from(in_range && !finite);
             in_range && finite
@@ -116,9 +132,9 @@ fn check_indices(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), SoupE
     Ok(())
 }
 
-/// The first vertex that a triangle uses and that is not finite; the indices are in range.
-fn first_non_finite(positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<usize> {
-    triangles.iter().flatten().map(|index| *index as usize).find(|index| !positions[*index].is_finite())
+/// The first vertex that a triangle uses and that is not as it has to be; the indices are in range.
+fn first_not(is_good: impl Fn(Vec3) -> bool, positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<usize> {
+    triangles.iter().flatten().map(|index| *index as usize).find(|index| !is_good(positions[*index]))
 }
 
 #[cfg(test)]

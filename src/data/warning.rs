@@ -13,11 +13,11 @@ pub struct Warning {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WarningKind {
-    /// Faces that used a NaN or infinite vertex were dropped.
+    /// Faces that used a NaN or infinite vertex, or one beyond [`LARGEST_COORDINATE`](super::LARGEST_COORDINATE), were dropped.
     NonFiniteFaces,
     /// Faces that named a vertex which does not exist were dropped.
     IndexOutOfRange,
-    /// Points with a NaN or infinite coordinate were dropped.
+    /// Points with a NaN or infinite coordinate, or one beyond [`LARGEST_COORDINATE`](super::LARGEST_COORDINATE), were dropped.
     NonFinitePoints,
     /// Normals of length zero or not finite were replaced by estimates, or the points dropped.
     BadNormals,
@@ -101,14 +101,17 @@ impl fmt::Display for Warning {
         let lines = of("line", "lines");
         match self.kind {
             WarningKind::NonFiniteFaces => {
-                write!(f, "{n} {faces} with a NaN or infinite vertex {were} dropped")
+                write!(f, "{n} {faces} with a NaN or infinite vertex, or one too far away, {were} dropped")
             }
             WarningKind::IndexOutOfRange => {
                 let name = of("names", "name");
                 write!(f, "{n} {faces} that {name} a vertex which does not exist {were} dropped")
             }
             WarningKind::NonFinitePoints => {
-                write!(f, "{n} {points} with a NaN or infinite coordinate {were} dropped")
+                write!(
+                    f,
+                    "{n} {points} with a NaN or infinite coordinate, or one too far away, {were} dropped"
+                )
             }
             WarningKind::BadNormals => write!(f, "{n} {points} had no usable normal"),
             WarningKind::CountMismatch => {

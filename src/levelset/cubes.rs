@@ -144,12 +144,14 @@ impl Vertices {
                 edges.extend(nodes.map(|node| self.bricks.edge(grid, place, node, axis)));
             }
             if edges.len() >= EDGES_AT_ONCE || number + 1 == self.order.len() {
-                let (done, total) = (positions.len() as f64, self.count as f64);
+                let (done, total) = (positions.len() as f64, self.count.max(1) as f64);
                 let share = edges.len() as f64;
                 let of_all =
                     |part: f64, stage: &str| monitor.report((done + share * part) / total, stage).is_ok();
                 let crossings = level_set.crossings(&edges, &of_all)?;
-                let place = |t: f64| t.clamp(CLEARANCE, 1.0 - CLEARANCE);
+                // Where rounding leaves no number, as of shapes of no size, the crossing is at the start.
+                let number = |t: f64| if t.is_nan() { 0.0 } else { t };
+                let place = |t: f64| number(t).clamp(CLEARANCE, 1.0 - CLEARANCE);
                 positions.extend(edges.drain(..).zip(crossings).map(|(edge, t)| edge.at(place(t))));
             }
         }

@@ -17,6 +17,7 @@ pub use cubes::{Edge, LevelSet, SurfaceGrid, TraceError, trace_surface};
 pub use roots::find_roots;
 pub use seeds::{
     Cell, cells_of_point, cells_of_points, cells_of_shape, cells_of_triangle, for_each_cell_of_shape,
+    places_of_shape,
 };
 pub use squares::{PlaneGrid, trace_contours};
 

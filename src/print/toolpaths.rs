@@ -10,7 +10,7 @@ use super::seams::place_seams;
 use super::settings::{Infill, Seam, ThinWalls, ToolpathSettings};
 use super::solid::{Fills, Stack, common};
 use super::thin::{MiddleLine, middle_lines};
-use crate::data::{Cancelled, Layer, Monitor, Polygon, map_tasks, threads};
+use crate::data::{Cancelled, Layer, Monitor, Parts, Polygon, map_tasks, threads};
 use crate::math::Vec2;
 use crate::polygon::{EdgeGrid, Stretch, opened, simplify};
 use std::f64::consts::FRAC_PI_2;
@@ -19,6 +19,11 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) const MAX_LINES: f64 = 1e5;
 /// Overhangs of walls steeper than this cannot be told from a wall without any, in degrees.
 const STEEPEST: f64 = 89.0;
+
+/// Where in the progress the walls end, the neighbours and the fill.
+const WALLS: f64 = 0.3;
+const NEIGHBOURS: f64 = 0.4;
+const FILL: f64 = 0.9;
 
 /// Fills layers with lines: walls, skins and infill, in the order they are laid.
 ///
@@ -36,6 +41,8 @@ pub fn toolpaths(
 ) -> Result<Toolpaths, PrintError> {
     settings.check()?;
     check(layers, settings)?;
+    let monitor = &Parts::new(monitor);
+    monitor.begin(0.0, WALLS);
     let count = layers.len();
     let mut report = Report::default();
 
@@ -53,6 +60,7 @@ pub fn toolpaths(
         all_walls.push(walls);
     }
 
+    monitor.begin(WALLS, NEIGHBOURS);
     let in_common = |layers: usize| -> Result<Vec<Vec<Polygon>>, Cancelled> {
         let mut cancelled = None;
         let common = common(&shapes, layers, |count, task| {
@@ -71,6 +79,7 @@ pub fn toolpaths(
     };
     let (common_below, common_above) = (&common_below, &common_above);
     let stack = Stack { shapes: &shapes, insides: &insides, common_below, common_above };
+    monitor.begin(NEIGHBOURS, FILL);
     let fills = in_blocks(count, monitor, "fill", &|k| {
         let fills = stack.fills(k, settings);
         let mut paths = fill_paths(&fills, k, layers[k].z_top, settings);
@@ -82,6 +91,7 @@ pub fn toolpaths(
     let mut loops: Vec<&mut Vec<Loop>> = all_walls.iter_mut().map(|walls| &mut walls.loops).collect();
     place_seams(&mut loops, settings.seam, settings.line_width);
 
+    monitor.begin(FILL, 1.0);
     let corners = shapes.iter().flatten().flat_map(|p| &p.outer);
     let from = corners.fold(Vec2::INFINITY, |low, p| low.min(*p));
     let layers_of_paths = in_blocks(count, monitor, "order", &|k| {

@@ -54,7 +54,8 @@ impl Faces {
         used.iter().enumerate().for_each(|(number, v)| numbers[*v] = number as u32);
         let positions = used.into_iter().map(|v| self.positions[v]).collect();
         let triangles = self.triangles.iter().map(|t| t.map(|v| numbers[v as usize])).collect();
-        TriangleSoup::new(positions, triangles).expect("vertices of a soup are finite, and all are numbered")
+        TriangleSoup::derived(positions, triangles)
+            .expect("vertices of a soup are finite, and all are numbered")
     }
 
     pub fn area(&self, t: usize) -> f64 {

@@ -29,12 +29,16 @@ impl<'a> GridTracer<'a> {
     /// Whether there are cells such as a configuration asks for.
     pub fn check(field: &WindingField, config: &SliceConfig) -> Result<Lattice, LatticeError> {
         let bounds = field.bounds();
-        match config.spacing {
+        let lattice = match config.spacing {
             Some(spacing) => {
                 Lattice::with_spacing(Aabb { max: bounds.max.with_z(bounds.min.z), ..bounds }, spacing)
             }
             None => Lattice::with_resolution(bounds, config.resolution),
+        }?;
+        if let Shape::Cloud(cloud) = field.shape() {
+            Lattice::check_area(cloud.areas().iter().sum(), lattice.spacing.x)?;
         }
+        Ok(lattice)
     }
 
     pub fn new(field: &'a WindingField, config: &SliceConfig) -> Result<GridTracer<'a>, LatticeError> {

@@ -5,7 +5,7 @@ use crate::data::{
     bit_of, mask_of_brick,
 };
 use crate::levelset::for_each_cell_of_shape;
-use crate::math::Vec3;
+use crate::math::{Aabb, Vec3};
 use crate::winding::{Scratch, WindingField};
 
 /// Samples that are asked for together: as many as their points may take some megabytes for.
@@ -73,7 +73,10 @@ impl States<'_> {
         let lattice = *self.lattice;
         let (mut wave, mut last) = (Vec::new(), [-1; 3]);
         let corner = lattice.origin - 0.5 * lattice.spacing;
-        for_each_cell_of_shape(shape, corner, lattice.spacing, &mut |cell| {
+        let counts = Vec3::from_array(lattice.counts.map(|count| count as f64));
+        let limits = Aabb { min: corner, max: corner + lattice.spacing * counts }
+            .padded(lattice.spacing.max_element());
+        for_each_cell_of_shape(shape, corner, lattice.spacing, &limits, &mut |cell| {
             let sample = cell.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
             if cell != last && (0..3).all(|axis| sample[axis] < lattice.counts[axis]) {
                 self.want(sample, &mut wave);

@@ -2,7 +2,7 @@
 use super::{SurfaceConfig, SurfaceError};
 use crate::data::{Lattice, LatticeError, Monitor, OrientedCloud, Shape};
 use crate::estimate::{EstimateError, roughness};
-use crate::levelset::{Blur, SurfaceGrid};
+use crate::levelset::{Blur, SurfaceGrid, places_of_shape};
 use crate::math::{Vec3, area_vector};
 use crate::winding::WindingField;
 
@@ -10,8 +10,6 @@ use crate::winding::WindingField;
 /// a quarter farther from the truth than Poisson's of depth 8, 0.85 as far, 0.7 nearer on all of them, and 0.5 not much nearer still for
 /// twice the triangles.
 const CELL_OF_CLOUD: f64 = 0.7;
-/// Nodes that are sampled for each square of a cell's edge: bricks of 64 that a surface crosses askew.
-const NODES_PER_SQUARE: f64 = 12.0;
 
 /// Cells over the bounds, centred on them, and how values at their corners are smoothed.
 pub fn grid(
@@ -43,9 +41,10 @@ pub fn grid(
     if !(spacing.is_finite() && spacing > 0.0) {
         return Err(LatticeError::BadSpacing(spacing).into());
     }
-    let nodes = NODES_PER_SQUARE * area(shape) / (spacing * spacing);
-    if nodes > Lattice::MAX_SAMPLES as f64 {
-        return Err(LatticeError::TooMany(nodes).into());
+    Lattice::check_area(area(shape), spacing)?;
+    let places = places_of_shape(shape, spacing);
+    if places > Lattice::MAX_SAMPLES as f64 {
+        return Err(LatticeError::TooMany(places).into());
     }
     // The slack is for rounding.
     if deviation > (1.0 + 1e-9) * Blur::WIDEST * spacing {

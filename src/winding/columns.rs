@@ -170,6 +170,8 @@ fn for_each_column(facet: u32, corners: &[Vec3; 3], bits: u32, mut found: impl F
             let (y0, y1) = (f64::from(j << width).max(span.0), f64::from((j + 1) << width).min(span.1));
             let [x0, x1] = plane.between([y0, y1], [z0, z1]);
             let x = steps_between(if x0 > low.x { x0 } else { low.x }, if x1 < high.x { x1 } else { high.x });
+            // In bounds that are 10³⁰ times longer than the triangle rounding may leave nothing between the two.
+            let x = if x.is_empty() { steps_between(low.x, high.x) } else { x };
             let x = [*x.start() as u16, *x.end() as u16];
             let column = ((k << bits) + j) as usize;
             found(column, Entry { facet, x, y: within(&squares, j), z: within(&rows, k) });

@@ -5,8 +5,8 @@ use super::many::{MANY, Many};
 use super::soup_field::{HALF, SoupField};
 use super::triangles::Triangles;
 use crate::data::{
-    BLOCK, Grid, Lattice, Monitor, Shape, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit,
-    zeroed,
+    BLOCK, Grid, Lattice, Monitor, Parts, Shape, fill_blocks, fill_in_blocks, for_each_lattice_block,
+    set_bit, zeroed,
 };
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{
@@ -230,6 +230,7 @@ impl WindingField {
         accuracy: Accuracy,
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, FieldError> {
+        let monitor = &Parts::new(monitor);
         if let Some((many, tolerance)) = self.many_for(accuracy).filter(|_| points.len() >= MANY) {
             if let Engine::Soup(soup) = &self.engine {
                 soup.prepare_points();
@@ -371,6 +372,7 @@ impl WindingField {
         threshold: f64,
         monitor: &dyn Monitor,
     ) -> Result<Vec<bool>, FieldError> {
+        let monitor = &Parts::new(monitor);
         let mut inside = zeroed(points.len())?;
         monitor.report(0.0, "inside test")?;
         match &self.engine {
@@ -414,6 +416,7 @@ impl WindingField {
         threshold: f64,
         monitor: &dyn Monitor,
     ) -> Result<Vec<u8>, FieldError> {
+        let monitor = &Parts::new(monitor);
         match &self.engine {
             Engine::Soup(soup) => match &soup.many {
                 Some(many) => soup.many_bits(many, lattice, threshold, monitor),

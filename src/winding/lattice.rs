@@ -45,7 +45,8 @@ impl SoupField {
         monitor: &dyn Monitor,
     ) -> Result<Vec<f64>, FieldError> {
         let mut values = zeroed::<f64>(lattice.len())?;
-        let stage = "winding numbers";
+        let (stage, monitor) = ("winding numbers", &Parts::new(monitor));
+        monitor.begin(0.0, if self.is_closed() { 1.0 } else { 0.5 });
         let without_caps = by == FractionBy::Edges && !self.closure.loose.is_empty();
         let end = if without_caps { self.soup.len() } else { self.facets().len() };
         let scan = Scan::new(self.facets(), 0..end, lattice);
@@ -56,6 +57,7 @@ impl SoupField {
         let planes = 0..lattice.counts[2];
         let on_surface =
             for_each_slab(&scan, planes.clone(), &mut values, SLAB_PLANES, fill, stage, monitor)?;
+        monitor.begin(0.5, 1.0);
         if let Some((many, accuracy)) = loose_by {
             many.add(&LatticeTargets::new(lattice), &accuracy, &mut values, monitor)?;
         } else if !self.closure.loose.is_empty() {

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch } from '../page/browser.mjs';
 import { install } from './install.mjs';
-import { FOR_ALL, ISOLATED, answers, ask, serve } from './pages.mjs';
+import { FOR_ALL, ISOLATED, answers, ask, inPage as evaluate, serve } from './pages.mjs';
 
 const { home } = install();
 /** What the package's README says it needs, and nothing else. */
@@ -22,16 +22,7 @@ after(async () => {
   Object.values(servers).forEach((server) => server.close());
 });
 
-/** Runs `action(module)` in a page of `server` with a module of the package, which comes from `origin`. */
-async function inPage(server, origin, file, action) {
-  const page = await chromium.newPage();
-  try {
-    await page.goto(`${server.origin}/`);
-    return await page.evaluate(`import(${JSON.stringify(`${origin}/dist/${file}`)}).then(${action})`);
-  } finally {
-    await page.close();
-  }
-}
+const inPage = (server, origin, file, action) => evaluate(chromium, server, origin, file, action);
 
 test('an isolated page gets threads', async () => {
   const { threads, reason, ...rest } = await inPage(servers.isolated, servers.isolated.origin, 'index.js', ask);

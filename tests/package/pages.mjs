@@ -7,11 +7,11 @@ const TYPES = { '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'a
 export const ISOLATED = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
 export const FOR_ALL = { 'Access-Control-Allow-Origin': '*', 'Cross-Origin-Resource-Policy': 'cross-origin' };
 
-/** Serves a folder's files, and an empty page at /. */
-export async function serve(folder, headers) {
+/** Serves a folder's files, others by their path, and an empty page at /. */
+export async function serve(folder, headers, files = {}) {
   const server = createServer(({ url }, response) => {
     const path = new URL(url, 'http://here').pathname;
-    const file = join(folder, path);
+    const file = files[path] ?? join(folder, path);
     if (path === '/') return response.writeHead(200, { ...headers, 'Content-Type': 'text/html' }).end('<!doctype html>');
     if (!statSync(file, { throwIfNoEntry: false })?.isFile()) return response.writeHead(404, headers).end();
     response.writeHead(200, { ...headers, 'Content-Type': TYPES[extname(file)] ?? 'text/plain' });
@@ -19,6 +19,17 @@ export async function serve(folder, headers) {
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
   return { origin: `http://127.0.0.1:${server.address().port}`, close: () => server.close() };
+}
+
+/** Runs `action(module)` in a page of `server` with a module of the package, which comes from `origin`. */
+export async function inPage(chromium, server, origin, file, action) {
+  const page = await chromium.newPage();
+  try {
+    await page.goto(`${server.origin}/`);
+    return await page.evaluate(`import(${JSON.stringify(`${origin}/dist/${file}`)}).then(${action})`);
+  } finally {
+    await page.close();
+  }
 }
 
 /** A tetrahedron asked twice, and a cloud without normals, for which more is loaded; run in the page. */

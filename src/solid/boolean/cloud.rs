@@ -1,6 +1,6 @@
 //! The surface that stands for a cloud: its level set, closed.
 use super::{BooleanConfig, BooleanError};
-use crate::data::{LatticeError, Monitor, OrientedCloud, TriangleSoup};
+use crate::data::{Lattice, LatticeError, Monitor, OrientedCloud, TriangleSoup};
 use crate::estimate::{EstimateError, roughness};
 use crate::levelset::{Edge, LevelSet, SurfaceGrid, TraceError, cells_of_points, find_roots, trace_surface};
 use crate::math::Vec3;
@@ -64,6 +64,7 @@ pub fn traced(
     if !spacing.is_finite() {
         return Err(LatticeError::BadSpacing(spacing).into());
     }
+    Lattice::check_area(cloud.areas().iter().sum(), spacing)?;
     let grid = SurfaceGrid { origin: bounds.min - Vec3::splat(0.5 * spacing), spacing };
     let seeds = cells_of_points(cloud.points(), grid.origin, Vec3::splat(spacing));
     Ok(trace_surface(&grid, &seeds, &Level(field), monitor)?.into())

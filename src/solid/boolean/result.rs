@@ -62,7 +62,7 @@ impl BooleanMesh {
 
     /// The triangles as a soup.
     pub fn soup(&self) -> TriangleSoup {
-        TriangleSoup::new(self.positions.clone(), self.triangles.clone())
+        TriangleSoup::derived(self.positions.clone(), self.triangles.clone())
             .expect("booleans make finite, indexed triangles")
     }
 }

@@ -2,7 +2,7 @@
 use super::cylinder::Cylinder;
 use super::region::{Kept, Region};
 use super::{OffsetError, bounds_of, spacing, surface_of};
-use crate::data::{Monitor, Parts, SurfaceMesh, TriangleSoup, fill_in_blocks};
+use crate::data::{LARGEST_COORDINATE, Monitor, Parts, SurfaceMesh, TriangleSoup, fill_in_blocks};
 use crate::distance::{DistanceTree, Search};
 use crate::math::Vec3;
 use crate::surface::{SurfaceConfig, check_sharp, extract};
@@ -55,7 +55,7 @@ pub fn hollow(
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, OffsetError> {
     let thickness = config.thickness;
-    if !(thickness.is_finite() && thickness > 0.0) {
+    if !(thickness > 0.0 && thickness <= LARGEST_COORDINATE) {
         return Err(OffsetError::BadThickness(thickness));
     }
     let spacing = spacing(bounds_of(field)?, config.resolution, config.spacing)?;

@@ -10,7 +10,7 @@ pub use hollow::{Drain, HollowConfig, hollow};
 
 use super::sharp::{Limits, sharpen};
 use super::{SurfaceConfig, SurfaceError, check_sharp};
-use crate::data::{LatticeError, Monitor, SurfaceMesh};
+use crate::data::{LARGEST_COORDINATE, LatticeError, Monitor, Parts, SurfaceMesh};
 use crate::distance::DistanceTree;
 use crate::levelset::{SurfaceGrid, TraceError, trace_surface};
 use crate::math::{Aabb, Vec3};
@@ -37,13 +37,15 @@ pub struct OffsetConfig {
 pub enum OffsetError {
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    #[error("a distance of {0} is not possible: it must be a finite number")]
+    #[error("a distance of {0} is not possible: it must be a finite number, up to {LARGEST_COORDINATE:e}")]
     BadDistance(f64),
-    #[error("a distance of {0} has no two sides: a finite number above 0 is needed")]
+    #[error(
+        "a distance of {0} has no two sides: a finite number above 0 is needed, up to {LARGEST_COORDINATE:e}"
+    )]
     BadTwoSidedDistance(f64),
     #[error("nothing is left at a distance of {0}: no cell of the shape is that deep inside")]
     NothingLeft(f64),
-    #[error("walls cannot be {0} thick: a finite number above 0 is needed")]
+    #[error("walls cannot be {0} thick: a finite number above 0 is needed, up to {LARGEST_COORDINATE:e}")]
     BadThickness(f64),
     #[error("walls of {thickness} are too thin for cells of {spacing}: they must be twice as thick")]
     ThinWall { thickness: f64, spacing: f64 },
@@ -95,7 +97,7 @@ pub fn offset(
     config: &OffsetConfig,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, OffsetError> {
-    if !config.distance.is_finite() {
+    if !(0.0..=LARGEST_COORDINATE).contains(&config.distance.abs()) {
         return Err(OffsetError::BadDistance(config.distance));
     }
     at_distance(field, Kept::UpTo(config.distance), config, monitor)
@@ -112,7 +114,7 @@ pub fn two_sided_offset(
     config: &OffsetConfig,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, OffsetError> {
-    if !(config.distance.is_finite() && config.distance > 0.0) {
+    if !(config.distance > 0.0 && config.distance <= LARGEST_COORDINATE) {
         return Err(OffsetError::BadTwoSidedDistance(config.distance));
     }
     at_distance(field, Kept::Near(config.distance), config, monitor)
@@ -128,6 +130,7 @@ fn at_distance(
     let bounds = bounds_of(field)?.padded(distance.max(0.0));
     let spacing = spacing(bounds, config.resolution, config.spacing)?;
     check_sharp(config.sharp)?;
+    let monitor = &Parts::new(monitor);
     let tree = DistanceTree::new(field.shape());
     let region = Region { field, tree, kept, drains: Vec::new(), spacing };
     let mesh = surface_of(&region, bounds, config.sharp, monitor)?;

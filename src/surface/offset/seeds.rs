@@ -26,7 +26,8 @@ pub fn cells_near(
     let cell_of = |p: Vec3| ((p - grid.origin) / grid.spacing).floor();
     let first = (cell_of(bounds.min) / f64::from(LARGEST)).floor();
     let counts = (cell_of(bounds.max) / f64::from(LARGEST)).floor() - first + 1.0;
-    if counts.element_product() > (Lattice::MAX_SAMPLES >> 8) as f64 {
+    // Also where they are no number, as the bounds are infinite.
+    if !(0.0..=(Lattice::MAX_SAMPLES >> 8) as f64).contains(&counts.element_product()) {
         return Err(LatticeError::TooMany(counts.element_product() * f64::from(LARGEST).powi(3)).into());
     }
     let [nx, ny, nz] = counts.to_array().map(|c| c as i32);

@@ -1,0 +1,2 @@
+import './watched-worker.js';
+import './dist/worker.js';
