@@ -113,7 +113,7 @@ function say({ report: { mapping, warnings } }: Texturing): void {
   const doubtful = bad + unfolded;
   byId('texture-verdict').dataset.rating = doubtful === 0 ? 'good' : doubtful <= 0.01 * triangles ? 'caution' : 'alarm';
   const fine = unfolded
-    ? `${plural(unfolded, 'triangle')} of ${count(triangles)} may reach beyond ${unfolded === 1 ? 'its chart' : 'their charts'}.`
+    ? `${plural(unfolded, 'triangle')} of ${count(triangles)} ${unfolded === 1 ? 'was laid flat by itself' : 'were laid flat by themselves'}.`
     : `All ${plural(triangles, 'triangle')} have their part of the picture.`;
   byId('texture-verdict-text').textContent =
     bad === 0 ? fine : `${plural(bad, 'triangle')} of ${count(triangles)} ${bad === 1 ? 'is' : 'are'} not textured well.`;
