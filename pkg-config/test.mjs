@@ -13,6 +13,9 @@ import { buildVariant, wasmCargo } from './tools/wasm.mjs';
 /** What the runners say at their end: cargo's and wasm-bindgen's, node's. */
 const CLOSING_LINES = /^(test result: .*|[#ℹ] (?:tests|pass|fail|skipped|duration_ms) .*|.*built in .*)$/gm;
 
+/** A suite that takes longer hangs: 15 minutes. */
+const LIMIT = '--test-timeout=900000';
+
 async function step(name, action) {
   say(name);
   const start = performance.now();
@@ -26,7 +29,7 @@ const cargo = (...args) => run('cargo', args, { cwd: root, quiet: true });
 function nodeTests(folder, env) {
   const tests = readdirSync(join(root, folder)).filter((name) => name.endsWith('.test.mjs'));
   const paths = tests.map((name) => join(folder, name));
-  return run('node', ['--test', '--test-concurrency=1', ...paths], { cwd: root, env, quiet: true });
+  return run('node', ['--test', '--test-concurrency=1', LIMIT, ...paths], { cwd: root, env, quiet: true });
 }
 
 async function wasmTests({ chromedriver }) {
