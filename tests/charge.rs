@@ -204,7 +204,7 @@ fn the_field_by_the_tree_is_that_of_all_triangles() {
     assert!(errors[400] < 1e-3 && errors[799] < 2e-2, "{} {}", errors[400], errors[799]);
 }
 
-/// Ends of lines are asked for together, and what is far is interpolated from step to step.
+/// Ends of lines are asked for together, and what is far is interpolated in cubes.
 #[test]
 fn steps_of_lines_follow_the_field_of_all_triangles() {
     let axes = Vec3::new(3.0, 2.0, 1.0);

@@ -60,11 +60,10 @@ impl Cells {
         let mut values = vec![(0.0, Vec3::ZERO); points.len()];
         for run in order.chunk_by(|a, b| a.0 == b.0).flat_map(|run| run.chunks(BLOCK)) {
             let own: Vec<Vec3> = run.iter().map(|(_, k)| points[*k as usize]).collect();
-            let found = match &self.cells[run[0].0 as usize] {
-                Cell { parts: Parts::Smaller { .. }, .. } => {
-                    charged.at(&Block::new(&own), &mut Lists::default())
-                }
-                cell => cell.at(charged, &own),
+            let cell = &self.cells[run[0].0 as usize];
+            let found = match &cell.parts {
+                Parts::Smaller { .. } => charged.at(&Block::new(&own), &mut Lists::default()),
+                Parts::Whole(lists) => cell.at(charged, lists, &own),
             };
             run.iter().zip(found).for_each(|((_, k), value)| values[*k as usize] = value);
         }
@@ -79,8 +78,9 @@ impl Cells {
         }
         let mut at = 0;
         loop {
-            let Cell { center, half, parts, .. } = &self.cells[at];
-            let Parts::Smaller { cells, .. } = parts else {
+            let cell = &self.cells[at];
+            let Cell { center, half, .. } = cell;
+            let Parts::Smaller { rest, cells } = &cell.parts else {
                 return at as u32;
             };
             let octant = (0..3).map(|axis| usize::from(point[axis] >= center[axis]) << axis).sum::<usize>();
@@ -89,8 +89,8 @@ impl Cells {
             let mut next = cells[octant];
             if next == 0 {
                 next = self.cells.len() as u32;
-                let cell = self.cells[at].part(charged, middle, self.least);
-                self.cells.push(cell);
+                let part = cell.part(charged, rest, middle, self.least);
+                self.cells.push(part);
                 if let Parts::Smaller { cells, .. } = &mut self.cells[at].parts {
                     cells[octant] = next;
                 }
@@ -112,9 +112,9 @@ fn root(elements: &Elements) -> Cell {
 }
 
 impl Cell {
-    fn at(&self, charged: &Charged, points: &[Vec3]) -> Vec<Value> {
+    /// Potential and field at points in it, with what is not far as listed.
+    fn at(&self, charged: &Charged, lists: &Lists, points: &[Vec3]) -> Vec<Value> {
         let block = Block::about(self.center, radius(self.half), points);
-        let Parts::Whole(lists) = &self.parts else { unreachable!() };
         let mut values = charged.listed(&block, lists);
         let mut sums = vec![[Octet::ZERO; SUMS]; block.groups.len()];
         polynomial::add(&self.values, self.half, &block, &mut sums);
@@ -126,10 +126,9 @@ impl Cell {
         values
     }
 
-    /// One of the eight cubes in it.
-    fn part(&self, charged: &Charged, center: Vec3, least: f64) -> Cell {
+    /// One of the eight cubes in it, of which `rest` is not far.
+    fn part(&self, charged: &Charged, rest: &[u32], center: Vec3, least: f64) -> Cell {
         let half = 0.5 * self.half;
-        let Parts::Smaller { rest, .. } = &self.parts else { unreachable!() };
         let (far, rest) = split(charged, rest, center, radius(half));
         let lists = far.map(|some| some.into_iter().map(|c| (c, u32::MAX)).collect::<Vec<(u32, u32)>>());
         let mut values = Vec::with_capacity(polynomial::POINTS);

@@ -39,7 +39,7 @@ impl Clusters {
         }
         let centers: Vec<Vec3> =
             sums.iter().map(|(area, sum)| if *area > 0.0 { *sum / *area } else { Vec3::ZERO }).collect();
-        // Of leaves to their farthest corners; else to the farther of what the boxes and the parts tell.
+        // Of leaves to their farthest corners; else the smaller of what their boxes and their parts tell.
         let mut radii = vec![0.0; centers.len()];
         for c in (0..centers.len()).rev() {
             let (child, bounds) = (nodes[c / WIDTH].children[c % WIDTH], nodes[c / WIDTH].bounds[c % WIDTH]);
