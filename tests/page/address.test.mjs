@@ -31,10 +31,12 @@ describe('the address', () => {
       assert.equal(await page.inputValue('#sample'), 'dragon-points.ply');
     }));
 
-  test('leads to a sample and a tool, which is opened and in sight', () =>
-    withPage(site, { unfolded: [], hash: '#sample=teapot&tool=texture' }, async (page) => {
+  test('leads to a sample and a tool, which is opened and in sight, also when the report above it has come', () =>
+    withPage(site, { unfolded: ['check-block'], hash: '#sample=teapot&tool=texture' }, async (page) => {
       assert.equal(await fact(page, 'facts', 'Triangles'), '992');
+      await page.waitForSelector('#verdict:not([hidden])');
       assert.ok(await page.locator('#texture').isVisible());
+      await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn, 100))));
       const { y, height } = await page.locator('#texture').boundingBox();
       assert.ok(y > 0 && y + height < 900, `its button is ${y} px down`);
       await page.click('#texture-block > summary');

@@ -26,11 +26,18 @@ export function folds(store: Store<State>): void {
   });
 }
 
-/** Opens a tool's block, and scrolls it into sight. */
+/** What keeps a block in sight. */
+let following: ResizeObserver | undefined;
+
+/** Opens a tool's block, and keeps it in sight while what is around it grows, as a report that comes later, until the person does anything. */
 export function showTool(tool: Tool): void {
   const block = byId<HTMLDetailsElement>(`${tool}-block`);
   block.open = true;
   block.scrollIntoView();
+  following?.disconnect();
+  const own = (following = new ResizeObserver(() => block.scrollIntoView()));
+  for (const neighbour of block.parentElement!.children) own.observe(neighbour);
+  for (const event of ['pointerdown', 'keydown', 'wheel']) addEventListener(event, () => own.disconnect(), { capture: true, once: true, passive: true });
 }
 
 function stored(): string[] | undefined {
