@@ -1,5 +1,6 @@
 // Booleans, as the package's callers see them.
-import type { CallOptions, Soup, Warning } from './api.js';
+import type { CallOptions, Warning } from './common-api.js';
+import type { Soup } from './soup-api.js';
 
 /** What is kept of two shapes: all, what is in both, or what is in the first alone. */
 export type BooleanOperation = 'union' | 'intersection' | 'difference';

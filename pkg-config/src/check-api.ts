@@ -1,6 +1,6 @@
 // Checks of soups and the turning of their faces, as the package's callers see them. Lengths are in millimetres, angles in degrees;
 // faces and vertices are named by their number in the soup, vertices in one place by the lowest of theirs.
-import type { Bounds, CallOptions } from './api.js';
+import type { Bounds, CallOptions } from './common-api.js';
 
 export interface CheckOptions extends CallOptions {
   /** Most entries of each list of defects (10,000); the count beside a list is the true one. */

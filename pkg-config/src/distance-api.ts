@@ -1,5 +1,5 @@
 // Distances, offset surfaces and hollow shapes, as the package's callers see them. Lengths are in millimetres.
-import type { CallOptions, Mesh } from './api.js';
+import type { CallOptions, Mesh } from './common-api.js';
 
 /** How distances are measured. */
 export interface DistanceOptions extends CallOptions {

@@ -1,4 +1,5 @@
 import { whenReleased } from './alive.js';
+import { workerElsewhere } from './elsewhere.js';
 import { initFor } from './init.js';
 import type { Platform, Port, PortListener } from './protocol.js';
 
@@ -12,11 +13,8 @@ function newWorker(url: string | URL | undefined): Worker {
     // Written out, so that bundlers find the worker.
     return url ? new Worker(url, { type: 'module' }) : new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
   } catch {
-    // From another origin, such as a CDN, only a script of this one may start a worker: one that imports the other.
     // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
-    const other = url ? new URL(url, location.href) : new URL('./worker.js', unbundled);
-    const script = new Blob([`import ${JSON.stringify(other.href)};`], { type: 'text/javascript' });
-    return new Worker(URL.createObjectURL(script), { type: 'module' });
+    return workerElsewhere(url ? new URL(url, location.href) : new URL('./worker.js', unbundled));
   }
 }
 

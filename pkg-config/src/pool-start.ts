@@ -1,4 +1,5 @@
 // Starts the workers of the thread pool.
+import { workerElsewhere } from './elsewhere.js';
 import type { PoolStarter } from './pool.js';
 
 export interface PoolMessage {
@@ -20,11 +21,8 @@ function newWorker(): Worker {
   try {
     return new Worker(new URL('./pool-worker.js', import.meta.url), { type: 'module' });
   } catch {
-    // From another origin, such as a CDN, only a script of this one may start a worker: one that imports the other.
     // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
-    const url = new URL('./pool-worker.js', unbundled);
-    const script = new Blob([`import ${JSON.stringify(url.href)};`], { type: 'text/javascript' });
-    return new Worker(URL.createObjectURL(script), { type: 'module' });
+    return workerElsewhere(new URL('./pool-worker.js', unbundled));
   }
 }
 

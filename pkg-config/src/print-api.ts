@@ -1,5 +1,5 @@
 // Toolpaths and printers, as the package's callers see them. Lengths are in millimetres, angles in degrees.
-import type { Warning } from './api.js';
+import type { Warning } from './common-api.js';
 
 /** How layers are filled with lines. `printSettings` gives the defaults. */
 export interface ToolpathSettings {

@@ -1,6 +1,6 @@
 // Repaired meshes, as the package's callers see them. Lengths are in millimetres, angles in degrees.
-import type { CallOptions } from './api.js';
 import type { CheckReport } from './check-api.js';
+import type { CallOptions } from './common-api.js';
 
 /** How a surface is made anew. */
 export interface RemeshOptions extends CallOptions {

@@ -1,5 +1,5 @@
 // Textures of soups, as the package's callers see them. Lengths are in millimetres; texture coordinates go from 0 to 1, v upward.
-import type { CallOptions, Warning } from './api.js';
+import type { CallOptions, Warning } from './common-api.js';
 
 /** The proxy: a closed mesh at a distance from the soup, whose texture the soup gets. */
 export interface ProxyOptions {

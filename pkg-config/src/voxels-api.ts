@@ -1,5 +1,5 @@
-// Voxels and saved fields, as the package's callers see them.
-import type { CallOptions, Mesh, VoxelOptions, Voxels } from './api.js';
+// Voxels, as the package's callers see them.
+import type { CallOptions, Mesh } from './common-api.js';
 
 /**
  * How it is found out what is inside. `lattice`, which is also called `exact`, asks every cell; `continuation` follows the surface from
@@ -23,6 +23,40 @@ export interface VoxelMethodOptions {
   beta?: number;
   /** Of `cloud`: `vertices` unless said otherwise. */
   points?: 'vertices' | 'barycentres';
+}
+
+/** The lattice fills the shape's bounds, samples at cell centres. One of resolution, spacing, counts. */
+export interface VoxelOptions extends VoxelMethodOptions, CallOptions {
+  /** Cells along the longest side; 64 unless said otherwise. */
+  resolution?: number;
+  /** Edge of a cubic cell in millimetres. */
+  spacing?: number;
+  /** Cells along x, y and z. */
+  counts?: [number, number, number];
+  /** A voxel is inside when w at its centre is at least this: 0.5 unless said otherwise. */
+  threshold?: number;
+  /** `bytes`: 0 or 1 for each voxel. `bits`: 8 voxels a byte, lowest bit first. */
+  format?: 'bytes' | 'bits';
+  /** Also return the exposed faces as a mesh. */
+  surface?: boolean;
+}
+
+/** Which cells of a lattice are inside. */
+export interface Voxels {
+  /** Cells along x, y and z. */
+  counts: [number, number, number];
+  /** Centre of the first voxel. */
+  origin: [number, number, number];
+  /** Edges of a voxel along x, y and z, in millimetres. */
+  spacing: [number, number, number];
+  /** x fastest. */
+  inside: Uint8Array;
+  /** Number of voxels inside. */
+  count: number;
+  /** Cubic millimetres inside. */
+  volume: number;
+  /** The faces between inside and outside, if they were asked for. */
+  surface?: Mesh;
 }
 
 /** Cells of a lattice in bricks of 8 × 8 × 8, for resolutions at which a byte or a bit for each is too much. */
@@ -56,14 +90,6 @@ export interface VoxelExportOptions {
   solid?: boolean;
   /** Of `nrrd`: without compression. */
   raw?: boolean;
-}
-
-/** What a shape does beside {@link Voxels}. */
-export interface VoxelShape {
-  /** The voxels of `voxelize` in bricks. Memory grows with the surface, by `continuation`, and for soups by `lattice`. */
-  voxelBricks(options?: Omit<VoxelOptions, 'format'>): Promise<VoxelBricks>;
-  /** The shape and its field as bytes, which `open` and `load` make shapes of that need not be built again. */
-  save(options?: CallOptions): Promise<Uint8Array>;
 }
 
 /** What is done with voxels. */

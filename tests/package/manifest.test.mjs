@@ -79,5 +79,6 @@ test('nothing but the package’s own files is packed', () => {
 test('it depends on nothing, and editors are told units and shapes', () => {
   const { dependencies, bundledDependencies } = JSON.parse(readFileSync(join(home, 'package.json'), 'utf8'));
   assert.deepEqual([dependencies, bundledDependencies], [undefined, undefined]);
-  assert.match(readFileSync(join(home, 'dist', 'api.d.ts'), 'utf8'), /\/\*\* xyzxyz… in millimetres, relative to `origin`\. \*\/\n\s*positions: Float32Array;/);
+  assert.match(readFileSync(join(home, 'dist', 'api.d.ts'), 'utf8'), /export type \* from '\.\/common-api\.js';/);
+  assert.match(readFileSync(join(home, 'dist', 'common-api.d.ts'), 'utf8'), /\/\*\* xyzxyz… in millimetres, relative to `origin`\. \*\/\n\s*positions: Float32Array;/);
 });

@@ -1,4 +1,4 @@
-/** Distances, offsets, two models together, and ways of making voxels. */
+/** Offsets, two models together, and ways of making voxels. */
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { SIDES, boxStl } from './models.mjs';
@@ -32,35 +32,6 @@ async function volume(page, list) {
 function near(found, expected, tolerance) {
   assert.ok(Math.abs(found - expected) <= tolerance, `${found} for ${expected}`);
 }
-
-describe('signed distances', () => {
-  test('colour the plane, with lines and a scale in mm, in the place of w', () =>
-    withModel(BOX, async (page) => {
-      await page.check('#heat');
-      await page.waitForSelector('#legend:not([hidden])');
-      const before = await picture(page);
-      await page.check('#distance');
-      await page.waitForSelector('#distance-legend:not([hidden])');
-      assert.ok(!(await page.isChecked('#heat')), 'one colour at a time');
-      await page.waitForSelector('#legend', { state: 'hidden' });
-      assert.match(await page.textContent('#distance-title'), /^a line every \d+(\.\d+)? mm$/);
-      const ticks = await page.locator('#distance-ticks span').allTextContents();
-      assert.ok(ticks.includes('0') && ticks.some((tick) => tick.startsWith('−')) && ticks.some((tick) => tick.startsWith('+')), ticks.join(' '));
-      assert.match(await page.getAttribute('#plan-svg .isoline.zero', 'd'), /^M.*L/);
-      assert.notEqual(await picture(page), before);
-
-      const box = await page.locator('#plan').boundingBox();
-      const distanceAt = async (x, y) => {
-        await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
-        return Number(/d (-?[\d.]+) mm/.exec(await page.textContent('#plan-readout'))[1]);
-      };
-      // The plane is in the middle of 20 mm; the plan's margin is 8 % of 40 mm.
-      near(await distanceAt(0.5, 0.5), -10, 0.3);
-      near(await distanceAt(0.01, 0.5), 2.7, 0.6);
-      await page.uncheck('#distance');
-      await page.waitForSelector('#distance-legend', { state: 'hidden' });
-    }));
-});
 
 describe('an offset', () => {
   test('is larger outside and smaller inside by what the slider says', () =>

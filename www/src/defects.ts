@@ -7,12 +7,14 @@ export type DefectKind =
   | 'holes' | 'flipped' | 'inconsistent' | 'crossing' | 'nonManifoldEdges' | 'nonManifoldVertices' | 'internal' | 'outside' | 'duplicates'
   | 'degenerate' | 'slivers' | 'ambiguous' | 'overlaps' | 'inverted' | 'thin' | 'overhangs';
 
+/** Whether it makes a broken surface, or is to be known alone. */
+export type Weight = 'alarm' | 'caution' | 'note';
+
 interface Kind {
   readonly label: string;
   /** What it means for whoever wants to use or print the model. */
   readonly note: string;
-  /** Whether it makes a broken surface, or is to be known alone. */
-  readonly weight: 'alarm' | 'caution' | 'note';
+  readonly weight: Weight;
   /** How many there are, in words; nothing if there are none or it was not looked for. */
   figure(report: CheckReport): string | undefined;
   named(report: CheckReport): Named;
@@ -138,17 +140,18 @@ const KINDS: Record<DefectKind, Kind> = {
 
 export const DEFECT_KINDS = Object.keys(KINDS) as DefectKind[];
 
-export interface Defect {
-  readonly kind: DefectKind;
+/** Something that a person can have shown, as a line of a list. */
+export interface Finding<K extends string> {
+  readonly kind: K;
   readonly label: string;
   readonly note: string;
-  readonly weight: Kind['weight'];
+  readonly weight: Weight;
   readonly figure: string;
 }
 
 /** What the check found, and the names of what it did not find. */
-export function defectsOf(report: CheckReport): { found: Defect[]; absent: string[] } {
-  const found: Defect[] = [];
+export function defectsOf(report: CheckReport): { found: Finding<DefectKind>[]; absent: string[] } {
+  const found: Finding<DefectKind>[] = [];
   const absent: string[] = [];
   for (const kind of DEFECT_KINDS) {
     const { label, note, weight, figure } = KINDS[kind];

@@ -1,7 +1,7 @@
 /** Signed distances over a plane: their colours, and the lines along which they are equal. */
 import { colourOf } from './colour.ts';
 import { niceBelow } from './format.ts';
-import type { PlaneMap } from './heat.ts';
+import type { PlaneMap } from './plane-map.ts';
 import type { Rgb } from './ramp.ts';
 
 /** Millimetres, negative inside. */

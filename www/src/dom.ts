@@ -41,3 +41,14 @@ export function paintSlider(slider: HTMLInputElement): void {
 export function token(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
+
+/** The longest that anything waits for a frame. */
+const PATIENCE_MILLISECONDS = 300;
+
+/** Resolves when the next frame is drawn; a page out of sight, which draws none, does not wait for that. */
+export function nextFrame(): Promise<void> {
+  return new Promise((resolve) => {
+    requestAnimationFrame(() => setTimeout(resolve));
+    setTimeout(resolve, PATIENCE_MILLISECONDS);
+  });
+}

@@ -29,6 +29,11 @@ export function length(millimetres: number): string {
   return millimetres < 1000 ? `${significant(millimetres, 3)} mm` : `${significant(millimetres / 1000, 3)} m`;
 }
 
+/** Extents given in mm, along x, y and z. */
+export function size(extents: readonly number[]): string {
+  return `${extents.map((extent) => significant(extent)).join(' × ')} mm`;
+}
+
 export function mass(grams: number): string {
   return grams < 1000 ? `${significant(grams, 3)} g` : `${significant(grams / 1000, 3)} kg`;
 }

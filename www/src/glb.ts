@@ -1,4 +1,5 @@
 /** Textured triangles as binary glTF. */
+import { boundsOf, centreOf } from './bounds.ts';
 import type { Encoded } from './picture.ts';
 import type { TexturedGeometry } from 'fast-winding';
 
@@ -34,8 +35,8 @@ export async function glbOf(soup: TexturedGeometry, picture: Encoded, name: stri
 }
 
 /** Three vertices a triangle, as each corner has coordinates of its own; relative to the middle, as glTF has single precision. */
-function corners({ positions, indices, uvs }: TexturedGeometry): { origin: number[]; positions: Float32Array; normals: Float32Array; uvs: Float32Array } {
-  const origin = middleOf(positions);
+function corners({ positions, indices, uvs }: TexturedGeometry): { origin: readonly number[]; positions: Float32Array; normals: Float32Array; uvs: Float32Array } {
+  const origin = positions.length > 0 ? centreOf(boundsOf(positions)) : [0, 0, 0];
   const own = new Float32Array(3 * indices.length);
   const normals = new Float32Array(3 * indices.length);
   indices.forEach((vertex, k) => {
@@ -47,16 +48,6 @@ function corners({ positions, indices, uvs }: TexturedGeometry): { origin: numbe
   }
   // Pictures of glTF have their first row at v = 0.
   return { origin, positions: own, normals, uvs: uvs.map((value, k) => (k % 2 ? 1 - value : value)) };
-}
-
-function middleOf(positions: Float64Array): number[] {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  positions.forEach((value, k) => {
-    low[k % 3] = Math.min(low[k % 3], value);
-    high[k % 3] = Math.max(high[k % 3], value);
-  });
-  return low.map((value, k) => (positions.length > 0 ? (value + high[k]) / 2 : 0));
 }
 
 /** Of unit length; up for a triangle without an area, as glTF has no zero normals. */

@@ -23,8 +23,16 @@ export function isSolid(item: Item): item is Solid {
 
 type Slot<M extends Made> = (typeof MADE)[M]['slot'];
 
-/** One thing that was made, and is shown or can be shown again. */
-export type Result = { readonly [M in Made]: { readonly id: number; readonly item: M; readonly made: NonNullable<State[Slot<M>]> } }[Made];
+/** One thing that was made. */
+export type Making = { readonly [M in Made]: { readonly item: M; readonly made: NonNullable<State[Slot<M>]> } }[Made];
+
+/** The same in the list of all that was made: it is shown, or can be shown again. */
+export type Result = Making & { readonly id: number };
+
+/** A number for one more. */
+export function nextId(results: readonly Result[]): number {
+  return 1 + Math.max(0, ...results.map(({ id }) => id));
+}
 
 /** What of the model is made is beside it when the view is split: what is shown, or what there is to be shown. A print has its own view. */
 export function madeOf(state: State): Made | undefined {
@@ -33,7 +41,7 @@ export function madeOf(state: State): Made | undefined {
 }
 
 /** The state with a result in its place. */
-export function withResult(state: State, { item, made }: Result): State {
+export function withResult(state: State, { item, made }: Making): State {
   return { ...state, [MADE[item].slot]: made };
 }
 
@@ -44,6 +52,7 @@ export function nameOf(result: Result, results: readonly Result[]): string {
   return alike.length > 1 ? `${label} ${alike.indexOf(result) + 1}` : label;
 }
 
-function labelOf(result: Result): string {
-  return result.item === 'offset' && result.made.value.kind === 'hollow' ? 'Hollow' : MADE[result.item].label;
+/** What it is called if there is no other like it. */
+export function labelOf({ item, made: { value } }: Making): string {
+  return 'kind' in value && value.kind === 'hollow' ? 'Hollow' : MADE[item].label;
 }

@@ -1,11 +1,19 @@
 import { init } from 'fast-winding';
-import type { FastWinding, ReadOptions } from 'fast-winding';
+import type { FastWinding, ReadOptions, Warning } from 'fast-winding';
 import { Jobs } from './jobs.ts';
 import { initialState } from './state.ts';
 import type { State } from './state.ts';
 import { Store } from './store.ts';
 
 export type Unit = NonNullable<ReadOptions['unit']>;
+
+/** A cloud with the normals that were estimated for it, and what was known of it. */
+export interface Oriented {
+  /** What `save` gives. */
+  readonly content: Blob;
+  readonly format: string;
+  readonly warnings: readonly Warning[];
+}
 
 /** Where a model comes from; read again when the engine had to be replaced. */
 export interface Source {
@@ -16,7 +24,14 @@ export interface Source {
   readonly sample?: string;
   /** Of the file's numbers, where its format does not say. */
   readonly unit: Unit;
+  /** What is to be read in the place of the file. */
+  readonly oriented?: Oriented;
   read(signal: AbortSignal): Promise<Uint8Array>;
+}
+
+/** Whether both are the same model: in another unit it is another one. */
+export function isSame(a: Source | undefined, b: Source | undefined): boolean {
+  return a?.id === b?.id && a?.unit === b?.unit;
 }
 
 /** What every action works with. */

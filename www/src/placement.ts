@@ -1,7 +1,7 @@
 /** Where a second model stands, how it is turned and how large it is. */
 import type { Bounds } from 'fast-winding';
-
-export type Triple = readonly [number, number, number];
+import { centreOf } from './bounds.ts';
+import type { Triple } from './bounds.ts';
 
 export interface Placement {
   /** Where the middle of its bounds is, in the model's coordinates. */
@@ -14,10 +14,6 @@ export interface Placement {
 export const UNMOVED: Placement = { centre: [0, 0, 0], angles: [0, 0, 0], scale: 1 };
 
 const RADIANS = Math.PI / 180;
-
-export function centreOf({ min, max }: Bounds): Triple {
-  return [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
-}
 
 /** Of the second model to where it stands: 16 numbers, column after column. */
 export function matrixOf({ centre, angles, scale }: Placement, bounds: Bounds): number[] {

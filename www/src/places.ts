@@ -1,5 +1,7 @@
 /** Where on a model the parts lie that a check names: gathered to places that hang together, each to be looked at by itself. */
 import type { Bounds } from 'fast-winding';
+import { boundsOf } from './bounds.ts';
+import type { Triple } from './bounds.ts';
 import { Forest } from './forest.ts';
 import type { Geometry } from './state.ts';
 
@@ -15,10 +17,13 @@ export interface Named {
   readonly boxes?: readonly Bounds[];
 }
 
+/** Triangles in the scene. */
+export type Located = Pick<Geometry, 'positions' | 'indices' | 'origin'>;
+
 /** All relative to the scene's origin. */
 export interface Place {
-  readonly min: readonly [number, number, number];
-  readonly max: readonly [number, number, number];
+  readonly min: Triple;
+  readonly max: Triple;
   /** Faces by number. */
   readonly faces: readonly number[];
   /** Ends of segments, xyzxyz…. */
@@ -30,7 +35,7 @@ export interface Place {
 }
 
 /** The places of what is named, the largest first; holes face away from the middle of the model. */
-export function placesOf(named: Named, { positions, indices, origin }: Geometry, middle: readonly number[]): Place[] {
+export function placesOf(named: Named, { positions, indices, origin }: Located, middle: readonly number[]): Place[] {
   const point = (vertex: number): number[] => [...positions.subarray(3 * vertex, 3 * vertex + 3)];
   const cornersOf = (face: number): number[] => [...indices!.subarray(3 * face, 3 * face + 3)];
   const line = (a: number, b: number): number[] => [...point(a), ...point(b)];
@@ -64,13 +69,7 @@ export function placesOf(named: Named, { positions, indices, origin }: Geometry,
 type Parts = Partial<Record<'faces' | 'lines' | 'points' | 'around' | 'facing', number[]>>;
 
 function place({ faces = [], lines = [], points = [], around = [...lines, ...points], facing }: Parts): Place {
-  const min: [number, number, number] = [Infinity, Infinity, Infinity];
-  const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
-  around.forEach((value, i) => {
-    min[i % 3] = Math.min(min[i % 3], value);
-    max[i % 3] = Math.max(max[i % 3], value);
-  });
-  return { min, max, faces, lines, points, facing };
+  return { ...boundsOf(around), faces, lines, points, facing };
 }
 
 /** Twice the area that a ring of points encloses, along its normal. */

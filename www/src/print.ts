@@ -1,4 +1,4 @@
-import type { Bounds, GCode, Layer, PathKind, RequiredProfile, ToolpathSettings, Warning } from 'fast-winding';
+import type { GCode, Layer, PathKind, RequiredProfile, ToolpathSettings, Warning } from 'fast-winding';
 import type { Segments } from './segments.ts';
 
 /** How a model is to be printed. */
@@ -40,11 +40,6 @@ export const KINDS: Record<MoveKind, { readonly label: string; readonly token: s
   infill: { label: 'Infill', token: '--print-infill' },
   travel: { label: 'Travel', token: '--print-travel' },
 };
-
-/** Extents along x, y and z. */
-export function sizeOf({ min, max }: Bounds): [number, number, number] {
-  return [max[0] - min[0], max[1] - min[1], max[2] - min[2]];
-}
 
 /** The same recipe for another printer: lines as wide as the nozzle stay as wide as the nozzle. */
 export function withProfile(recipe: Recipe, profile: RequiredProfile): Recipe {

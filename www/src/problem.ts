@@ -25,3 +25,8 @@ export function sentence(message: string): string {
   const start = text.charAt(0).toUpperCase() + text.slice(1);
   return /[.!?]$/.test(start) ? start : `${start}.`;
 }
+
+/** By its names, what was kept and is not there again. */
+export function lost(titles: readonly string[]): Problem {
+  return { title: 'Not all that was kept is there again', detail: `Not readable any more: ${titles.join(', ')}.` };
+}

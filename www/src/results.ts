@@ -35,6 +35,11 @@ export interface Combined {
   readonly warnings: readonly Warning[];
 }
 
+/** Positions with the origin added, in double precision. */
+export function placed({ positions, origin }: Triangles): Float64Array {
+  return Float64Array.from(positions, (value, i) => value + origin[i % 3]);
+}
+
 /** Cubic millimetres that a closed surface encloses. */
 export function volumeOf({ positions, indices }: Triangles): number {
   let six = 0;

@@ -1,12 +1,13 @@
 import type { Bounds, CheckReport, Cloud, HeatMap, Info, Layer, Prepared, Soup, Voxels, Warning } from 'fast-winding';
 import type { Tool } from './address.ts';
+import type { AffectedKind } from './affected.ts';
 import type { Comparison } from './comparison.ts';
 import type { DefectKind } from './defects.ts';
 import type { PlaneDistances } from './distances.ts';
+import type { Result } from './made.ts';
+import type { Picture } from './picture.ts';
 import { UNMOVED } from './placement.ts';
 import type { Placement } from './placement.ts';
-import type { Picture } from './picture.ts';
-import type { Result } from './made.ts';
 import type { MoveKind, Nozzle, Print, Recipe } from './print.ts';
 import type { Problem } from './problem.ts';
 import type { Combined, Offset, Repair, SurfaceMesh } from './results.ts';
@@ -29,6 +30,8 @@ export interface Model {
   readonly shape: Soup | Cloud;
   readonly geometry: Geometry;
   readonly bounds: Bounds;
+  /** Of its file. */
+  readonly format: string;
   readonly warnings: readonly Warning[];
   /** False for a cloud that has no normals yet: it has no inside. */
   readonly oriented: boolean;
@@ -67,9 +70,9 @@ export interface Limits {
   readonly overhangAngle: number;
 }
 
-/** The defects that are coloured: all places of a kind, or the camera on one of them. */
+/** The defects of the model, or the triangles of its texture, that are coloured: all places of a kind, or the camera on one of them. */
 export interface ShownDefect {
-  readonly kind: DefectKind;
+  readonly kind: DefectKind | AffectedKind;
   readonly place?: number;
 }
 
@@ -105,8 +108,10 @@ export type Item = (typeof ITEMS)[number];
 export interface State {
   info?: Info;
   model?: Model;
-  /** Whether the browser keeps the model's file; undefined for a sample, and until it is known. */
+  /** Whether the browser keeps the model's file, or what was made of a sample; undefined until it is known, or there is nothing of either. */
   kept?: boolean;
+  /** Names of what else is not kept. */
+  unkept: readonly string[];
   /** Where the person is. */
   tool?: Tool;
   plane: Plane;
@@ -182,6 +187,7 @@ export function initialState(): State {
     isDrawing: false,
     isFlowing: false,
     results: [],
+    unkept: [],
     meshFormat: 'stl',
     halves: false,
     cutAway: false,
@@ -219,13 +225,4 @@ export const NOTHING_MADE = {
 
 export function allOf(isVisible: boolean): Record<Item, boolean> {
   return Object.fromEntries(ITEMS.map((item) => [item, isVisible])) as Record<Item, boolean>;
-}
-
-/** Height of the cutting plane, in the model's coordinates. */
-export function planeHeight(plane: Plane, bounds: Bounds): number {
-  return bounds.min[2] + (plane.index + 0.5) * plane.layerHeight;
-}
-
-export function diagonal({ min, max }: Bounds): number {
-  return Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
 }

@@ -1,5 +1,5 @@
 /** A texture of the model, by a proxy around it, and the seams that the proxy is cut along. */
-import type { AtlasOptions, FieldLines, ProxyGeometry, ProxyOptions, Soup, Texture, TexturedGeometry, TextureReport } from 'fast-winding';
+import type { AffectedTriangles, AtlasOptions, FieldLines, ProxyGeometry, ProxyOptions, Soup, Texture, TexturedGeometry, TextureReport } from 'fast-winding';
 
 /** The proxy, and how it is cut and laid flat. */
 export type Mapping = ProxyOptions & Omit<AtlasOptions, 'seams'>;
@@ -20,6 +20,8 @@ export interface Texturing {
   readonly handle: Texture;
   readonly report: TextureReport;
   readonly soup: TexturedGeometry;
+  /** Of its triangles. */
+  readonly affected: AffectedTriangles;
   readonly proxy: ProxyGeometry;
   readonly lines: FieldLines;
   /** Those that its charts were cut along, of those that were drawn. */

@@ -3,7 +3,7 @@ import type { Plan } from './arguments.js';
 import type { Outcome } from './command.js';
 import { writeOut } from './files.js';
 import type { Progress } from './progress.js';
-import { toJson } from './words.js';
+import { toJson, warningRows } from './words.js';
 
 /** What came of one job. */
 export type Result = Success | Failure;
@@ -24,7 +24,7 @@ function linesOf({ command, common }: Plan, { names, ...result }: Success): stri
     ? [['written', `${result.written[0]} … ${result.written.at(-1)}, ${result.written.length} files`]]
     : result.written.map((path) => ['written', path]);
   if (common.output === undefined && command.formats.length > 0 && command.name !== 'check') written.push(['written', 'nothing: -o FILE says where to']);
-  const all = [...rows, ...result.warnings.map(({ message }): [string, string] => ['warning', message]), ...written];
+  const all = [...rows, ...warningRows(result.warnings), ...written];
   const width = Math.max(0, ...all.map(([name]) => name.length)) + 2;
   return [`${names.join(', ')}: ${headline}`, ...all.map(([name, value]) => `  ${name.padEnd(width)}${value}`)].join('\n');
 }

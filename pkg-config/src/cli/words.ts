@@ -18,8 +18,8 @@ export function sizeOf({ min, max }: Bounds): string {
 
 export const counts = (numbers: readonly number[]): string => numbers.map((count) => figure(count)).join(' × ');
 
-/** Each warning once. */
-export function warningRows(warnings: readonly Warning[]): [string, string][] {
+/** A row for each warning. */
+export function warningRows(warnings: readonly Pick<Warning, 'message'>[]): [string, string][] {
   return warnings.map(({ message }) => ['warning', message]);
 }
 

@@ -1,11 +1,11 @@
 import type { Soup } from 'fast-winding';
 import { stem } from '../download.ts';
 import type { Page } from '../page.ts';
+import { placed } from '../results.ts';
 import type { Triangles } from '../results.ts';
 import { attempt } from './attempt.ts';
 import { modelOf } from './load.ts';
 import { show } from './open.ts';
-import { placed } from './save.ts';
 import { sourceOf } from './source.ts';
 
 /** Makes a result the model that all else is done with. */

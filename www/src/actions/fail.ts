@@ -2,6 +2,7 @@ import { restartEngine } from '../page.ts';
 import type { Page } from '../page.ts';
 import { isAborted, isLost, problemOf } from '../problem.ts';
 import { load } from './load.ts';
+import { handleOf } from './results.ts';
 
 /** Tells a problem in words; an engine that died is replaced first, and the model given to the new one. Cancelling is no problem. */
 export async function fail(page: Page, title: string, error: unknown): Promise<void> {
@@ -26,7 +27,7 @@ async function restart(page: Page): Promise<void> {
   const { store } = page;
   const { source, secondSource } = page;
   // Their shapes were in the engine that is gone.
-  const results = store.state.results.filter(({ item }) => !['repaired', 'combined', 'textured'].includes(item));
+  const results = store.state.results.filter((result) => !handleOf(result));
   store.set({ results, against: undefined, repair: undefined, combined: undefined, texture: undefined, seams: [], seamStart: undefined, isDrawing: false });
   if (source) {
     const model = await page.jobs.run('Starting again', (options) => load(page, source, options));

@@ -2,7 +2,7 @@ import type { Bounds, CallOptions, Cloud, Soup } from 'fast-winding';
 import type { PlaneDistances } from '../distances.ts';
 import { Latest } from '../latest.ts';
 import type { Page } from '../page.ts';
-import { planeHeight } from '../state.ts';
+import { heightOf } from '../plane.ts';
 import type { Model, PlaneColours } from '../state.ts';
 import { fail } from './fail.ts';
 import { timed } from './timed.ts';
@@ -26,7 +26,7 @@ export function followPlane(page: Page): void {
   store.on(['model', 'plane', 'planeColours', 'job'], ({ model, plane, planeColours: colours, job }) => {
     // The engine does one thing at a time: while a long job has it, the plane waits.
     if (!model?.oriented || job) return;
-    const z = planeHeight(plane, model.bounds);
+    const z = heightOf(plane, model.bounds);
     if (colours !== 'winding') store.set({ heat: undefined });
     if (colours !== 'distance') store.set({ distances: undefined });
     const cut = { model, z, layerHeight: plane.layerHeight, colours };

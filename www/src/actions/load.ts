@@ -4,12 +4,14 @@ import type { Geometry, Model } from '../state.ts';
 
 /** Reads a source into a model whose field is built. */
 export async function load(page: Page, source: Source, options: Required<CallOptions>): Promise<Model> {
-  const bytes = await source.read(options.signal);
+  const { name, unit, oriented } = source;
+  const bytes = oriented ? new Uint8Array(await oriented.content.arrayBuffer()) : await source.read(options.signal);
   const start = performance.now();
-  const shape = await page.engine.open(bytes, { ...options, unit: source.unit, transfer: true });
+  const shape = await page.engine.open(bytes, { ...options, unit, transfer: true });
   const readMilliseconds = performance.now() - start;
   try {
-    return await modelOf(shape, source.name, readMilliseconds, options);
+    const model = await modelOf(shape, name, readMilliseconds, options);
+    return oriented ? { ...model, format: oriented.format, warnings: oriented.warnings } : model;
   } catch (error) {
     shape.free();
     throw error;
@@ -21,7 +23,8 @@ export async function modelOf(shape: Soup | Cloud, name: string, readMillisecond
   const geometry = await geometryOf(shape);
   const oriented = shape.kind === 'soup' || shape.hasNormals;
   const prepared = oriented ? await shape.prepare(options) : undefined;
-  return { name, shape, geometry, bounds: shape.bounds, warnings: [...shape.warnings], oriented, readMilliseconds, prepared };
+  const { bounds, format } = shape;
+  return { name, shape, geometry, bounds, format, warnings: [...shape.warnings], oriented, readMilliseconds, prepared };
 }
 
 async function geometryOf(shape: Soup | Cloud): Promise<Geometry> {

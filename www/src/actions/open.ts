@@ -1,22 +1,50 @@
+import type { CallOptions } from 'fast-winding';
+import { contentOf, onlyOne, removeBelongings } from '../belongings.ts';
 import type { Kept } from '../kept.ts';
-import type { Page, Source, Unit } from '../page.ts';
+import type { Oriented, Page, Source, Unit } from '../page.ts';
+import { planeFor } from '../plane.ts';
+import { isAborted, isLost, lost } from '../problem.ts';
 import { initialState } from '../state.ts';
 import type { Model } from '../state.ts';
 import { fail } from './fail.ts';
 import { forgotten } from './forget.ts';
 import { load } from './load.ts';
-import { planeFor } from './plane.ts';
 
 /** Opens a model and shows it. When that fails, the model shown before stays and the problem is told. */
 export async function open(page: Page, source: Source): Promise<void> {
   page.store.set({ problem: undefined });
   try {
-    const model = await page.jobs.run(`Opening ${source.name}`, (options) => load(page, source, options));
-    page.source = source;
+    const { model, isLess, ...left } = await page.jobs.run(`Opening ${source.name}`, (options) => loadAsLeft(page, source, options));
+    page.source = left.source;
     show(page, model);
+    if (isLess) page.store.set({ problem: lost(['Normals']) });
   } catch (error) {
     await fail(page, `${source.name} could not be opened`, error);
   }
+}
+
+interface AsLeft {
+  readonly source: Source;
+  readonly model: Model;
+  /** Whether its normals could not be read. */
+  readonly isLess: boolean;
+}
+
+/** A cloud has the normals again that were estimated for it, if the browser has kept them. */
+async function loadAsLeft(page: Page, source: Source, options: Required<CallOptions>): Promise<AsLeft> {
+  const id = onlyOne(source, 'normals');
+  const oriented = (await contentOf(id)) as Oriented | undefined;
+  if (oriented) {
+    try {
+      const whole = { ...source, oriented };
+      return { source: whole, model: await load(page, whole, options), isLess: false };
+    } catch (error) {
+      if (isAborted(error) || isLost(error)) throw error;
+      await removeBelongings([id]);
+    }
+  }
+  const bare = { ...source, oriented: undefined };
+  return { source: bare, model: await load(page, bare, options), isLess: oriented !== undefined };
 }
 
 /** Opens the same file again, its numbers taken in another unit. */

@@ -1,5 +1,5 @@
-import { advanced, endOf, isAtEnd, movesIn } from '../segments.ts';
 import type { Print } from '../print.ts';
+import { advanced, endOf, isAtEnd, movesIn } from '../segments.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
 

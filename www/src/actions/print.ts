@@ -1,11 +1,12 @@
 import type { CallOptions, PrinterProfile } from 'fast-winding';
+import { sizeOf } from '../bounds.ts';
 import type { Page } from '../page.ts';
-import { sizeOf, withProfile } from '../print.ts';
+import { withProfile } from '../print.ts';
 import type { Print, Recipe } from '../print.ts';
 import { isLost, sentence } from '../problem.ts';
 import { endOf, segmentsOf } from '../segments.ts';
-import { isRecord, remember, remembered } from '../storage.ts';
 import type { Model } from '../state.ts';
+import { isRecord, remember, remembered } from '../storage.ts';
 import { attempt } from './attempt.ts';
 import { fail } from './fail.ts';
 import { only } from './only.ts';

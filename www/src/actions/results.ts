@@ -1,6 +1,7 @@
 /** The results of the model, in the order in which they were made: each can be shown again, held against another, saved and removed. */
-import { ALL_MADE, MADE } from '../made.ts';
-import type { Made, Result } from '../made.ts';
+import type { Soup, Texture } from 'fast-winding';
+import { ALL_MADE, MADE, nextId } from '../made.ts';
+import type { Made, Making, Result } from '../made.ts';
 import type { Page } from '../page.ts';
 import type { State } from '../state.ts';
 import { only } from './only.ts';
@@ -8,18 +9,17 @@ import { saveTexture } from './picture.ts';
 import { saveGCode, saveMesh, saveSoup } from './save.ts';
 
 /** More make the oldest ones go. */
-const MOST = 8;
+export const MOST = 8;
 /** One at a time: the next takes the place of the last. */
 const SINGLE: readonly Made[] = ['textured', 'print'];
 
 /** Whatever is made is put down. */
 export function followResults({ store }: Page): void {
-  let last = 0;
   store.on(ALL_MADE.map((item) => MADE[item].slot), (state) => {
     for (const item of ALL_MADE) {
       const made = state[MADE[item].slot];
       if (!made || store.state.results.some((result) => result.made === made)) continue;
-      const result = { id: ++last, item, made } as Result;
+      const result = { id: nextId(store.state.results), item, made } as Result;
       const others = store.state.results.filter((other) => !(SINGLE.includes(item) && other.item === item));
       const oldest = others.filter((other) => state[MADE[other.item].slot] !== other.made).slice(0, Math.max(0, others.length + 1 - MOST));
       oldest.forEach(release);
@@ -28,10 +28,15 @@ export function followResults({ store }: Page): void {
   });
 }
 
+/** What a result has in the engine, if anything. */
+export function handleOf({ item, made }: Making): Soup | Texture | undefined {
+  if (item === 'repaired' || item === 'combined') return made.value.soup;
+  return item === 'textured' ? made.value.handle : undefined;
+}
+
 /** Gives back what a result has in the engine. */
-export function release(result: Result): void {
-  if (result.item === 'repaired' || result.item === 'combined') result.made.value.soup.free();
-  if (result.item === 'textured') result.made.value.handle.free();
+export function release(making: Making): void {
+  handleOf(making)?.free();
 }
 
 /** Shows a result alone; without one, the model. */

@@ -1,6 +1,7 @@
 import type { Layer, Soup, Voxels } from 'fast-winding';
 import { download, stem } from '../download.ts';
 import type { Page } from '../page.ts';
+import { placed } from '../results.ts';
 import type { Triangles } from '../results.ts';
 import type { MeshFormat } from '../state.ts';
 import { fail } from './fail.ts';
@@ -74,11 +75,6 @@ export function saveProfile({ store }: Page): void {
   if (!profile) return;
   const text = `${JSON.stringify(profile, null, 2)}\n`;
   download(new TextEncoder().encode(text), `${profile.name.replace(/[^\w-]+/g, '-') || 'printer'}.json`, 'application/json');
-}
-
-/** Positions with the mesh's origin added, in double precision. */
-export function placed({ positions, origin }: Triangles): Float64Array {
-  return Float64Array.from(positions, (value, i) => value + origin[i % 3]);
 }
 
 function nameOf({ store }: Page): string {

@@ -1,14 +1,16 @@
 import type { BooleanOperation, CallOptions } from 'fast-winding';
+import { centreOf, diagonal } from '../bounds.ts';
 import type { Page, Source } from '../page.ts';
-import { centreOf, firstPlacement, matrixOf } from '../placement.ts';
+import { firstPlacement, matrixOf } from '../placement.ts';
 import { PRIMITIVES } from '../primitives.ts';
 import type { PrimitiveName } from '../primitives.ts';
 import { sentence } from '../problem.ts';
-import { diagonal } from '../state.ts';
+import type { Model } from '../state.ts';
 import { attempt } from './attempt.ts';
-import { fileSource, newId } from './open.ts';
-import { load } from './load.ts';
+import { load, modelOf } from './load.ts';
 import { only } from './only.ts';
+import { fileSource, newId } from './open.ts';
+import { sourceOf } from './source.ts';
 import { timed } from './timed.ts';
 
 /** Parts of the model's diagonal that a simple shape is large. */
@@ -39,15 +41,9 @@ export async function makeSecond(page: Page, name: PrimitiveName): Promise<void>
 async function takeSecond(page: Page, source: Source): Promise<void> {
   const { store } = page;
   await attempt(page, `Opening ${source.name}`, `${source.name} could not be opened`, async (options) => {
-    const { shape, geometry, bounds, name, oriented } = await load(page, source, options);
-    try {
-      if (shape.kind === 'cloud' && !oriented) await shape.orient(options);
-    } catch (error) {
-      shape.free();
-      throw error;
-    }
+    const [asItIs, { shape, geometry, bounds, name }] = await loadOriented(page, source, options);
     store.state.second?.shape.free();
-    page.secondSource = source;
+    page.secondSource = asItIs;
     const { model, visible } = store.state;
     store.set({
       second: { shape, geometry, bounds, name },
@@ -56,6 +52,20 @@ async function takeSecond(page: Page, source: Source): Promise<void> {
       halves: false,
     });
   });
+}
+
+/** A cloud gets normals if it has none, which its source then has too. */
+async function loadOriented(page: Page, source: Source, options: Required<CallOptions>): Promise<[Source, Model]> {
+  const model = await load(page, source, options);
+  const { shape, name, oriented, readMilliseconds } = model;
+  if (shape.kind === 'soup' || oriented) return [source, model];
+  try {
+    await shape.orient(options);
+    return [await sourceOf(shape, name), await modelOf(shape, name, readMilliseconds, options)];
+  } catch (error) {
+    shape.free();
+    throw error;
+  }
 }
 
 export function removeSecond(page: Page): void {

@@ -65,8 +65,8 @@ async function mapped(page: Page, before: Texturing, mapping: Mapping, seams: re
 }
 
 async function contents(handle: Texture, seams: readonly Seam[]): Promise<Omit<Texturing, 'source' | 'mapping'>> {
-  const [soup, proxy, lines] = await Promise.all([handle.geometry(), handle.proxy(), handle.lines({ count: LINES })]);
-  return { handle, report: handle.report, soup, proxy, lines, seams };
+  const [soup, affected, proxy, lines] = await Promise.all([handle.geometry(), handle.affected(), handle.proxy(), handle.lines({ count: LINES })]);
+  return { handle, report: handle.report, soup, affected, proxy, lines, seams };
 }
 
 async function seamsOn({ handle, proxy }: Texturing, before: ProxyGeometry, seams: readonly Seam[]): Promise<Seam[]> {

@@ -1,12 +1,14 @@
 import type { CheckReport } from 'fast-winding';
 import { checkModel, turnFaces } from '../actions/check.ts';
 import { saveReport } from '../actions/save.ts';
+import { sizeOf } from '../bounds.ts';
+import { defectsOf } from '../defects.ts';
 import { byId, setFacts, setList } from '../dom.ts';
-import { count, length, milliseconds, plural, significant, volume } from '../format.ts';
+import { count, length, milliseconds, plural, significant, size, volume } from '../format.ts';
 import type { Page } from '../page.ts';
 import { sentence } from '../problem.ts';
 import type { Limits, State, Timed } from '../state.ts';
-import { defectList } from './defects.ts';
+import { showFindings } from './defects.ts';
 import { enableWhenUsable, reveal } from './usable.ts';
 
 const RATINGS: Record<CheckReport['verdict']['rating'], { readonly headline: string; readonly colour: string }> = {
@@ -32,11 +34,14 @@ export function checkPanel(page: Page): void {
   byId('check-save').addEventListener('click', () => saveReport(page));
   limit(page, 'check-thickness', 'minimumThickness');
   limit(page, 'check-angle', 'overhangAngle');
-  defectList(store);
   store.on(['model'], (state) => {
     byId('check-cloud').hidden = !state.model || isSoup(state);
   });
   store.on(['report'], (state) => {
+    const { found, absent } = state.report ? defectsOf(state.report.value) : { found: [], absent: [] };
+    showFindings(store, byId('defects'), found, ({ visible }) => ({ ...visible, model: true, defects: true }));
+    byId('check-absent').hidden = absent.length === 0;
+    byId('check-absent').textContent = `Not found: ${absent.join(', ')}.`;
     showReport(state.report);
     if (state.report) reveal(state, 'verdict');
   });
@@ -77,7 +82,7 @@ function factsOf({ value, milliseconds: time }: Timed<CheckReport>): [string, st
     ['Shells', closedShells === shells.count ? `${count(shells.count)}, closed` : `${count(shells.count)}, ${count(closedShells)} closed`],
     ['Volume', volume(enclosed)],
     ['Area', `${significant(area)} mm²`],
-    ['Size, mm', bounds.min.map((low, k) => significant(bounds.max[k] - low)).join(' × ')],
+    ['Size', size(sizeOf(bounds))],
   ];
   if (genus != null) facts.push(['Handles', count(genus)]);
   if (thickness) facts.push(['Thinnest', length(thickness.minimum)]);

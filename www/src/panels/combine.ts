@@ -5,9 +5,9 @@ import { combine, makeSecond, openSecond, removeSecond } from '../actions/second
 import { byId, setFacts, setList } from '../dom.ts';
 import { count, milliseconds, plural, significant, volume } from '../format.ts';
 import type { Page } from '../page.ts';
-import { sentence } from '../problem.ts';
 import { PRIMITIVES } from '../primitives.ts';
 import type { PrimitiveName } from '../primitives.ts';
+import { sentence } from '../problem.ts';
 import { areaOf, volumeOf } from '../results.ts';
 import type { Combined } from '../results.ts';
 import type { GizmoMode, Timed } from '../state.ts';

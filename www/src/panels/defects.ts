@@ -1,33 +1,21 @@
-import { defectsOf } from '../defects.ts';
-import type { Defect } from '../defects.ts';
+import type { Finding } from '../defects.ts';
 import { byId } from '../dom.ts';
 import { count } from '../format.ts';
-import { shownPlaces } from '../shown.ts';
-import type { State } from '../state.ts';
+import { shownOf } from '../shown.ts';
+import type { ShownDefect, State } from '../state.ts';
 import type { Store } from '../store.ts';
 
-/** What a check found: pressing an entry colours it and looks at it; its places can be stepped through. */
-export function defectList(store: Store<State>): void {
-  const list = byId('defects');
-  store.on(['report'], ({ report }) => {
-    const { found, absent } = report ? defectsOf(report.value) : { found: [], absent: [] };
-    byId('stepper').hidden = true;
-    list.after(byId('stepper'));
-    list.replaceChildren(...found.map((defect) => entry(store, defect)));
-    byId('check-absent').hidden = absent.length === 0;
-    byId('check-absent').textContent = `Not found: ${absent.join(', ')}.`;
-  });
-  byId('defect-previous').addEventListener('click', () => step(store, -1));
-  byId('defect-next').addEventListener('click', () => step(store, 1));
-  byId('defect-hide').addEventListener('click', () => {
-    const kind = store.state.defect?.kind;
-    store.set({ defect: undefined });
-    list.querySelector<HTMLElement>(`[data-defect=${kind}]`)?.focus();
-  });
-  store.on(['defect', 'report'], (state) => showChosen(state));
+/** Fills a list with what was found: pressing an entry colours it and looks at it, with what else is to be `seen`. */
+export function showFindings(store: Store<State>, list: HTMLElement, findings: readonly Finding<ShownDefect['kind']>[], seen: (state: State) => State['visible']): void {
+  const stepper = byId('stepper');
+  if (list.contains(stepper)) {
+    stepper.hidden = true;
+    list.after(stepper);
+  }
+  list.replaceChildren(...findings.map((finding) => entry(store, finding, seen)));
 }
 
-function entry(store: Store<State>, { kind, label, note, weight, figure }: Defect): HTMLElement {
+function entry(store: Store<State>, { kind, label, note, weight, figure }: Finding<ShownDefect['kind']>, seen: (state: State) => State['visible']): HTMLElement {
   const row = document.createElement('li');
   const button = document.createElement('button');
   const [name, figures] = ['label', 'figure'].map((part) => {
@@ -46,34 +34,46 @@ function entry(store: Store<State>, { kind, label, note, weight, figure }: Defec
   button.append(name, ' ', figures);
   button.addEventListener('click', () => {
     const isShown = store.state.defect?.kind === kind;
-    store.set(isShown ? { defect: undefined } : { defect: { kind }, visible: { ...store.state.visible, model: true, defects: true }, halves: false });
+    store.set(isShown ? { defect: undefined } : { defect: { kind }, visible: seen(store.state), halves: false });
   });
   row.append(button);
   return row;
 }
 
+/** Below the entry that is pressed: what it means, and its places, which can be stepped through. To be called when the lists are there. */
+export function defectStepper(store: Store<State>): void {
+  byId('defect-previous').addEventListener('click', () => step(store, -1));
+  byId('defect-next').addEventListener('click', () => step(store, 1));
+  byId('defect-hide').addEventListener('click', () => {
+    const kind = store.state.defect?.kind;
+    store.set({ defect: undefined });
+    document.querySelector<HTMLElement>(`[data-defect=${kind}]`)?.focus();
+  });
+  store.on(['defect', 'report', 'texture'], showChosen);
+}
+
 /** The next place, and after the last one the first. */
 function step(store: Store<State>, by: number): void {
   const { defect } = store.state;
-  const places = shownPlaces(store.state).length;
+  const places = shownOf(store.state)?.places.length ?? 0;
   if (!defect || places === 0) return;
   const from = defect.place ?? (by > 0 ? -1 : 0);
   store.set({ defect: { ...defect, place: (from + by + places) % places } });
 }
 
 function showChosen(state: State): void {
-  const { defect, report } = state;
+  const { defect } = state;
+  const shown = shownOf(state);
   const stepper = byId('stepper');
-  stepper.hidden = !defect || !report;
-  for (const button of byId('defects').querySelectorAll<HTMLButtonElement>('.defect')) {
+  stepper.hidden = !shown;
+  for (const button of document.querySelectorAll<HTMLButtonElement>('.defect')) {
     const isShown = button.dataset.defect === defect?.kind;
     button.setAttribute('aria-pressed', String(isShown));
-    // The steps are below the entry that they are of.
     if (isShown) button.after(stepper);
     if (isShown) byId('defect-note').textContent = button.title;
   }
-  if (!defect) return;
-  const places = shownPlaces(state).length;
+  if (!defect || !shown) return;
+  const places = shown.places.length;
   byId('defect-place').textContent = defect.place === undefined ? inWords(places) : `${count(defect.place + 1)} of ${count(places)}`;
   for (const id of ['defect-previous', 'defect-next']) byId<HTMLButtonElement>(id).disabled = places === 0;
 }

@@ -1,10 +1,11 @@
-import { planeFor, withLayerHeight } from '../actions/plane.ts';
+import type { Bounds } from 'fast-winding';
 import { saveLayer } from '../actions/save.ts';
+import { diagonal } from '../bounds.ts';
 import { areaOf, perimeterOf, ringsOf } from '../contour.ts';
 import { byId, paintSlider, setFacts } from '../dom.ts';
 import { count, milliseconds, significant } from '../format.ts';
 import type { Page } from '../page.ts';
-import { diagonal, planeHeight } from '../state.ts';
+import { heightOf, planeFor, withLayerHeight } from '../plane.ts';
 import type { State } from '../state.ts';
 
 /** More layers than this are a mistyped layer height, and too fine for a slider. */
@@ -45,7 +46,7 @@ export function layerPanel(page: Page): void {
     slider.valueAsNumber = plane.index;
     height.value = String(plane.layerHeight);
     paintSlider(slider);
-    const z = model ? planeHeight(plane, model.bounds) : 0;
+    const z = model ? heightOf(plane, model.bounds) : 0;
     slider.setAttribute('aria-valuetext', `layer ${plane.index + 1} of ${plane.count}, z ${significant(z)} millimetres`);
     byId('layer-out').textContent = model ? `layer ${count(plane.index + 1)} of ${count(plane.count)}` : '';
     byId('layer-z').textContent = model ? `z = ${fixedHeight(z, model.bounds)} mm` : '';
@@ -76,7 +77,7 @@ function contours(outer: number, holes: number): string {
 }
 
 /** The same number of decimals at every height of a model, so that the figure does not jump. */
-function fixedHeight(z: number, bounds: Parameters<typeof diagonal>[0]): string {
+function fixedHeight(z: number, bounds: Bounds): string {
   const decimals = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(diagonal(bounds) || 1))));
   return z.toFixed(decimals).replace('-', '−');
 }

@@ -1,12 +1,13 @@
 import { SAMPLES } from '../../samples/catalogue.ts';
-import { forgetKept } from '../actions/keep.ts';
+import { forgetKept } from '../actions/keep-file.ts';
 import { fileSource, open, reopen, sampleSource } from '../actions/open.ts';
 import { takePicture } from '../actions/picture.ts';
 import { openSecond } from '../actions/second.ts';
+import { sizeOf } from '../bounds.ts';
 import { byId, setFacts, setList } from '../dom.ts';
 import { acceptDrops } from '../drop.ts';
 import type { DropField } from '../drop.ts';
-import { bytes, count, milliseconds, significant } from '../format.ts';
+import { bytes, count, milliseconds, significant, size } from '../format.ts';
 import type { Page, Unit } from '../page.ts';
 import { sentence } from '../problem.ts';
 import type { Model, State } from '../state.ts';
@@ -58,19 +59,11 @@ export function modelControls(page: Page): void {
   unit.addEventListener('change', () => void reopen(page, unit.value as Unit));
   page.store.on(['model', 'job'], ({ model, job }) => {
     if (!model || job) return;
-    byId('unit-field').hidden = ['3mf', 'arrays', 'field'].includes(model.shape.format);
+    byId('unit-field').hidden = ['3mf', 'arrays', 'field'].includes(model.format);
     unit.value = page.source?.unit ?? 'millimeter';
   });
 
-  page.store.on(['model', 'kept'], ({ kept }) => {
-    byId('kept').hidden = kept === undefined;
-    byId('kept-text').textContent = kept ? 'Kept in this browser, to be there when the page is loaded again.' : 'Not kept: it is to be opened again when the page is loaded again.';
-    byId('forget').hidden = !kept;
-  });
-  byId('forget').addEventListener('click', () => {
-    void forgetKept(page);
-    byId('choose').focus();
-  });
+  keptLine(page);
   const input = byId<HTMLInputElement>('file');
   byId('choose').addEventListener('click', () => input.click());
   input.addEventListener('change', () => {
@@ -80,14 +73,35 @@ export function modelControls(page: Page): void {
   acceptDrops((file, field) => void take(page, file, field));
 }
 
+/** Whether the model, or what was made of it, is there when the page is loaded again. */
+function keptLine(page: Page): void {
+  page.store.on(['model', 'kept', 'unkept'], (state) => {
+    const text = keptText(state, page.source?.sample !== undefined);
+    byId('kept').hidden = text === '';
+    byId('kept-text').textContent = text;
+    byId('forget').hidden = !state.kept;
+  });
+  byId('forget').addEventListener('click', () => {
+    void forgetKept(page);
+    byId('choose').focus();
+  });
+}
+
+function keptText({ kept, unkept }: State, isSample: boolean): string {
+  if (kept === false && !isSample) return 'Not kept: it is to be opened again when the page is loaded again.';
+  const names = unkept.join(', ');
+  if (!kept) return names && `Not kept, to be made again when the page is loaded again: ${names}.`;
+  const what = isSample ? 'What was made of it is kept' : 'It is kept with what was made of it';
+  return `${what} in this browser, to be there when the page is loaded again.${names && ` Not kept: ${names}.`}`;
+}
+
 /** A file that was dropped. A textured model takes an image wherever it falls. */
 async function take(page: Page, file: File, field?: DropField): Promise<void> {
   if (field === 'picture' || (page.store.state.texture && file.type.startsWith('image/'))) return takePicture(page, file);
   return field === 'second' ? openSecond(page, file) : open(page, fileSource(file));
 }
 
-function factsOf({ shape, geometry, bounds, prepared, readMilliseconds, oriented }: Model): [string, string][] {
-  const size = [0, 1, 2].map((k) => significant(bounds.max[k] - bounds.min[k]));
+function factsOf({ shape, geometry, bounds, format, prepared, readMilliseconds, oriented }: Model): [string, string][] {
   const facts: [string, string][] = [];
   if (shape.kind === 'soup') {
     facts.push(['Triangles', count(shape.count)]);
@@ -97,9 +111,9 @@ function factsOf({ shape, geometry, bounds, prepared, readMilliseconds, oriented
     facts.push(['Points', count(shape.count)]);
     facts.push(['Normals', oriented ? 'yes' : 'missing']);
   }
-  facts.push(['Size', `${size.join(' × ')} mm`]);
+  facts.push(['Size', size(sizeOf(bounds))]);
   facts.push(['Lowest corner', bounds.min.map((value) => significant(value)).join(', ')]);
-  facts.push(['Format', shape.format.toUpperCase()]);
+  facts.push(['Format', format.toUpperCase()]);
   facts.push(['Read', milliseconds(readMilliseconds)]);
   if (prepared) facts.push(['Field built', `${milliseconds(prepared.milliseconds)}, ${bytes(prepared.bytes)}`]);
   return facts;

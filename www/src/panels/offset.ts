@@ -2,12 +2,12 @@ import { adopt } from '../actions/adopt.ts';
 import { makeHollow, makeOffset } from '../actions/offset.ts';
 import type { Cells } from '../actions/offset.ts';
 import { saveMesh } from '../actions/save.ts';
+import { boundsOf, diagonal, sizeOf } from '../bounds.ts';
 import { byId, setFacts } from '../dom.ts';
-import { count, milliseconds, significant, volume } from '../format.ts';
+import { count, milliseconds, size, volume } from '../format.ts';
 import type { Page } from '../page.ts';
 import { volumeOf } from '../results.ts';
 import type { Offset } from '../results.ts';
-import { diagonal } from '../state.ts';
 import type { Timed } from '../state.ts';
 import { lengthField, tidy } from './length-field.ts';
 import { saver } from './saver.ts';
@@ -68,17 +68,9 @@ export function offsetPanel(page: Page): void {
 }
 
 function factsOf({ value: { mesh }, milliseconds: time }: Timed<Offset>): [string, string][] {
-  const size = [0, 1, 2].map((k) => {
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = k; i < mesh.positions.length; i += 3) {
-      low = Math.min(low, mesh.positions[i]);
-      high = Math.max(high, mesh.positions[i]);
-    }
-    return significant(high - low);
-  });
   return [
     ['Triangles', count(mesh.indices.length / 3)],
-    ['Size', `${size.join(' × ')} mm`],
+    ['Size', size(sizeOf(boundsOf(mesh.positions)))],
     ['Volume', volume(volumeOf(mesh))],
     ['Computed', milliseconds(time)],
   ];

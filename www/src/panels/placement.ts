@@ -1,5 +1,6 @@
+import { centreOf } from '../bounds.ts';
 import { byId } from '../dom.ts';
-import { UNMOVED, centreOf } from '../placement.ts';
+import { UNMOVED } from '../placement.ts';
 import type { Placement } from '../placement.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';

@@ -1,14 +1,14 @@
 import type { Bounds, HeatMap } from 'fast-winding';
-import { pathOf } from '../contour.ts';
-import { byId } from '../dom.ts';
-import { niceBelow, significant } from '../format.ts';
+import { diagonal } from '../bounds.ts';
 import { colourOf, spanOf } from '../colour.ts';
+import { pathOf } from '../contour.ts';
 import { distanceColour, isoline, levelsOf, scaleOf } from '../distances.ts';
 import type { PlaneDistances } from '../distances.ts';
-import { heatAt, heatRectangle, paintMap } from '../heat.ts';
-import type { PlaneMap } from '../heat.ts';
+import { byId } from '../dom.ts';
+import { niceBelow, significant } from '../format.ts';
+import { valueAt, rectangleOf, paintMap } from '../plane-map.ts';
+import type { PlaneMap } from '../plane-map.ts';
 import type { Rgb } from '../ramp.ts';
-import { diagonal } from '../state.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
 
@@ -88,7 +88,7 @@ function distanceImage(map: PlaneDistances): string {
 }
 
 function imageOf(map: PlaneMap, colour: (value: number) => Rgb): string {
-  const { min, max } = heatRectangle(map);
+  const { min, max } = rectangleOf(map);
   return `<image x="${min[0]}" y="${-max[1]}" width="${max[0] - min[0]}" height="${max[1] - min[1]}" preserveAspectRatio="none" href="${paintMap(map, colour).toDataURL()}"/>`;
 }
 
@@ -102,8 +102,8 @@ function segmentsPath(ends: readonly number[]): string {
 function describe({ heat, distances, model }: State, x: number, y: number): string {
   const decimals = Math.max(0, 2 - Math.floor(Math.log10(diagonal(model!.bounds) || 1)));
   const place = `x ${x.toFixed(decimals)}  y ${y.toFixed(decimals)}`;
-  const w = heat && heatAt(heat.value, x, y);
+  const w = heat && valueAt(heat.value, x, y);
   if (w !== undefined) return `${place}  w ${w.toFixed(3)}`;
-  const distance = distances && heatAt(distances.value, x, y);
+  const distance = distances && valueAt(distances.value, x, y);
   return distance === undefined ? place : `${place}  d ${distance.toFixed(decimals)} mm`;
 }

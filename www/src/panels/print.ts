@@ -1,9 +1,9 @@
 import { loadProfile, preparePrint } from '../actions/print.ts';
 import { saveGCode, saveLayer, saveLayers, saveProfile } from '../actions/save.ts';
+import { sizeOf } from '../bounds.ts';
 import { byId, setFacts, setList } from '../dom.ts';
 import { bytes, count, duration, length, mass, milliseconds, significant } from '../format.ts';
 import type { Page } from '../page.ts';
-import { sizeOf } from '../print.ts';
 import type { Print } from '../print.ts';
 import { sentence } from '../problem.ts';
 import { layerCount } from '../segments.ts';
@@ -38,7 +38,7 @@ export function printPanel(page: Page): void {
   });
   store.on(['print'], showPrint);
   store.on(['print', 'recipe'], ({ print, recipe }) => {
-    byId('print-stale').hidden = !print || print.value.recipe === recipe;
+    byId('print-stale').hidden = !print || JSON.stringify(print.value.recipe) === JSON.stringify(recipe);
   });
 }
 

@@ -1,4 +1,5 @@
 import { suggestOffset } from '../actions/texture.ts';
+import { sizeOf } from '../bounds.ts';
 import { byId } from '../dom.ts';
 import { length } from '../format.ts';
 import type { Page } from '../page.ts';
@@ -76,7 +77,7 @@ function offsetField(page: Page, changed: () => void): LengthField {
 
 function longestSide({ store }: Page): number {
   const { model } = store.state;
-  return model ? Math.max(...model.bounds.max.map((high, k) => high - model.bounds.min[k])) : 1;
+  return model ? Math.max(...sizeOf(model.bounds)) : 1;
 }
 
 /** With three digits, not less than it was. */

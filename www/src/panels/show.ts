@@ -79,7 +79,7 @@ function describe({ model, layer, defect, repair, voxels, comparison, surface, o
     case 'combined':
       return { isThere: combined !== undefined, ...MADE.combined };
     case 'proxy':
-      return { isThere: texture !== undefined, label: 'Charts of the proxy', token: '--view-proxy' };
+      return { isThere: texture !== undefined, label: 'Charts', token: '--view-proxy' };
     case 'fieldLines':
       return { isThere: texture !== undefined, label: 'Field lines', token: '--view-field' };
     case 'textured':

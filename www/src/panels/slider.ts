@@ -1,3 +1,4 @@
+import { sizeOf } from '../bounds.ts';
 import { byId, paintSlider } from '../dom.ts';
 import { count } from '../format.ts';
 import type { State } from '../state.ts';
@@ -24,8 +25,7 @@ function show(input: HTMLInputElement): void {
 /** How many cubic cells a resolution along the longest side means for the model. */
 export function cells({ model }: State, resolution: number): string {
   if (!model) return '';
-  const { min, max } = model.bounds;
-  const sides = [0, 1, 2].map((k) => max[k] - min[k]);
+  const sides = sizeOf(model.bounds);
   const cell = Math.max(...sides) / resolution;
   const counts = sides.map((side) => Math.max(1, Math.ceil(side / cell - 1e-9)));
   return `${counts.map(count).join(' × ')} cells of ${cell.toPrecision(3)} mm`;

@@ -1,6 +1,7 @@
 import { saveTexture, takePicture, TEXTURE_FORMATS } from '../actions/picture.ts';
 import type { TextureFormat } from '../actions/picture.ts';
 import { makeTexture, remap } from '../actions/texture.ts';
+import { affectedOf, isAffected } from '../affected.ts';
 import { byId, setFacts, setList } from '../dom.ts';
 import { count, length, milliseconds, plural, significant } from '../format.ts';
 import type { Page } from '../page.ts';
@@ -10,6 +11,7 @@ import type { Item, State, Timed } from '../state.ts';
 import type { Store } from '../store.ts';
 import type { Mapping, Texturing } from '../texture.ts';
 import { atlasView } from './atlas.ts';
+import { showFindings } from './defects.ts';
 import { proxyFields } from './proxy.ts';
 import { seamsPanel } from './seams.ts';
 import { slider } from './slider.ts';
@@ -34,6 +36,9 @@ export function texturePanel(page: Page): void {
     byId('texture-result').hidden = !texture;
     setFacts(byId('texture-facts'), texture ? factsOf(texture) : []);
     if (texture) say(texture.value);
+    // What was coloured was of the texture before.
+    if (store.state.defect && isAffected(store.state.defect.kind)) store.set({ defect: undefined });
+    showFindings(store, byId('affected'), texture ? affectedOf(texture.value.affected) : [], ({ visible }) => ({ ...allOf(false), layer: visible.layer, defects: true, textured: true }));
     if (texture) reveal(state, 'texture-result');
   });
   shownChoice(store);
@@ -106,9 +111,12 @@ function factsOf({ value: { report, lines }, milliseconds: time }: Timed<Texturi
   ];
 }
 
+/** Told by the triangles that they are of. */
+const LISTED = ['bad-texture', 'weak-field', 'lost-lines', 'tangential-lines'];
+
 /** What became of the triangles, in words. */
 function say({ report: { mapping, warnings } }: Texturing): void {
-  const { triangles, flipped, torn, acrossCharts, moved, unfolded } = mapping;
+  const { triangles, flipped, torn, unfolded } = mapping;
   const bad = flipped + torn;
   const doubtful = bad + unfolded;
   byId('texture-verdict').dataset.rating = doubtful === 0 ? 'good' : doubtful <= 0.01 * triangles ? 'caution' : 'alarm';
@@ -117,13 +125,6 @@ function say({ report: { mapping, warnings } }: Texturing): void {
     : `All ${plural(triangles, 'triangle')} have their part of the picture.`;
   byId('texture-verdict-text').textContent =
     bad === 0 ? fine : `${plural(bad, 'triangle')} of ${count(triangles)} ${bad === 1 ? 'is' : 'are'} not textured well.`;
-  const sentences: string[] = [];
-  if (acrossCharts) sentences.push(`${plural(acrossCharts, 'triangle')} lay across seams; ${moved === acrossCharts ? 'all' : count(moved)} of them could be moved into one chart.`);
-  if (unfolded) sentences.push(`${plural(unfolded, 'triangle')} that folded over ${unfolded === 1 ? 'was' : 'were'} laid flat by ${unfolded === 1 ? 'itself' : 'themselves'}.`);
-  if (flipped) sentences.push(`${plural(flipped, 'triangle')} ${flipped === 1 ? 'is' : 'are'} flipped or flat in the picture.`);
-  if (torn) sentences.push(`${plural(torn, 'triangle')} ${torn === 1 ? 'is' : 'are'} more than eight times too large or too small in the picture.`);
-  // Bad triangles are told above.
-  const others = warnings.filter(({ code }) => code !== 'bad-texture');
-  setList(byId('texture-verdict-reasons'), [...sentences, ...others.map(({ message }) => sentence(message))]);
+  const others = warnings.filter(({ code }) => !LISTED.includes(code));
+  setList(byId('texture-verdict-reasons'), others.map(({ message }) => sentence(message)));
 }
-

@@ -1,8 +1,7 @@
 import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshBasicMaterial, MeshStandardMaterial, Points, PointsMaterial } from 'three';
 import type { Object3D } from 'three';
 import { token } from '../dom.ts';
-import type { Place } from '../places.ts';
-import type { Geometry } from '../state.ts';
+import type { Located, Place } from '../places.ts';
 import { thickLines } from './lines.ts';
 
 const LINE_PIXELS = 4;
@@ -13,7 +12,7 @@ const POINT_PIXELS = 9;
 const SEEN_THROUGH = 0.3;
 
 /** Places on the model in colour, also where the model hides them. */
-export function defectObjects(places: readonly Place[], { positions, indices }: Geometry, colourToken: string): Object3D[] {
+export function defectObjects(places: readonly Place[], { positions, indices }: Located, colourToken: string): Object3D[] {
   const objects: Object3D[] = [];
   const corners = places.flatMap(({ faces }) => faces).flatMap((face) => [...indices!.subarray(3 * face, 3 * face + 3)]);
   if (corners.length > 0) {

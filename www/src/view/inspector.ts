@@ -1,6 +1,6 @@
+import { diagonal } from '../bounds.ts';
 import type { Place } from '../places.ts';
-import { shownPlaces } from '../shown.ts';
-import { diagonal } from '../state.ts';
+import { shownOf } from '../shown.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
 import { defectObjects } from './defects.ts';
@@ -13,7 +13,7 @@ const LEAST_VIEW = 0.08;
 /** Room around a place, as a part of its own size. */
 const ROOM = 0.6;
 
-/** Defects in the 3D view: all of a kind in colour, one of them brighter, with the camera on it. */
+/** Defects, and triangles of a texture, in the 3D view: all of a kind in colour, one of them brighter, with the camera on it. */
 export class Inspector {
   readonly #store: Store<State>;
   readonly #stage: Stage;
@@ -30,18 +30,19 @@ export class Inspector {
   }
 
   refresh(): void {
-    const { model, report, defect } = this.#store.state;
-    if (!model || !report || !defect) return void this.#part.replace();
-    const places = shownPlaces(this.#store.state);
-    const chosen = defect.place === undefined ? [] : places.slice(defect.place, defect.place + 1);
+    const { defect } = this.#store.state;
+    const shown = shownOf(this.#store.state);
+    if (!shown) return void this.#part.replace();
+    const { places, geometry } = shown;
+    const chosen = defect?.place === undefined ? [] : places.slice(defect.place, defect.place + 1);
     const others = places.filter((place) => !chosen.includes(place));
-    this.#part.replace(...defectObjects(others, model.geometry, '--view-defect'), ...defectObjects(chosen, model.geometry, '--view-chosen'));
+    this.#part.replace(...defectObjects(others, geometry, '--view-defect'), ...defectObjects(chosen, geometry, '--view-chosen'));
     this.#stage.draw();
   }
 
   #look(): void {
     const { model, defect } = this.#store.state;
-    const places = shownPlaces(this.#store.state);
+    const places = shownOf(this.#store.state)?.places ?? [];
     if (!model || !defect || places.length === 0) return;
     const least = LEAST_VIEW * diagonal(model.bounds);
     const chosen = defect.place === undefined ? places : [places[defect.place]];

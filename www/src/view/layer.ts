@@ -2,11 +2,11 @@ import { CanvasTexture, DoubleSide, Mesh, MeshBasicMaterial, PlaneGeometry, Shap
 import type { Object3D } from 'three';
 import type { Layer } from 'fast-winding';
 import { forEachEdge, ringsOf } from '../contour.ts';
-import { token } from '../dom.ts';
 import { distanceColour, isoline, levelsOf, scaleOf } from '../distances.ts';
 import type { PlaneDistances } from '../distances.ts';
-import { heatRectangle, paintMap } from '../heat.ts';
-import type { PlaneMap, Rectangle } from '../heat.ts';
+import { token } from '../dom.ts';
+import { rectangleOf, paintMap } from '../plane-map.ts';
+import type { PlaneMap, Rectangle } from '../plane-map.ts';
 import type { Rgb } from '../ramp.ts';
 import { thickLines, thinLines } from './lines.ts';
 import type { Surroundings } from './part.ts';
@@ -62,7 +62,7 @@ export function distancePane(map: PlaneDistances, surroundings: Surroundings): O
 
 /** A map of the plane, coloured, lying at its height. */
 export function mapPane(map: PlaneMap, colour: (value: number) => Rgb, { origin }: Surroundings): Mesh {
-  const { min, max } = heatRectangle(map);
+  const { min, max } = rectangleOf(map);
   const texture = new CanvasTexture(paintMap(map, colour));
   texture.colorSpace = SRGBColorSpace;
   const pane = new Mesh(

@@ -1,10 +1,10 @@
 import { Euler, Group, MathUtils } from 'three';
 import type { Object3D } from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
+import { centreOf, diagonal } from '../bounds.ts';
+import type { Triple } from '../bounds.ts';
 import { token } from '../dom.ts';
-import { centreOf } from '../placement.ts';
-import type { Placement, Triple } from '../placement.ts';
-import { diagonal } from '../state.ts';
+import type { Placement } from '../placement.ts';
 import type { State } from '../state.ts';
 import type { Store } from '../store.ts';
 import { twoSidedMesh } from './mesh.ts';

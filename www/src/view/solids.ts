@@ -3,8 +3,8 @@ import type { Object3D, Plane } from 'three';
 import { shownRow } from '../comparison.ts';
 import type { ComparedVoxels } from '../comparison.ts';
 import { token } from '../dom.ts';
-import type { Combined, Triangles } from '../results.ts';
 import type { Solid } from '../made.ts';
+import type { Combined, Triangles } from '../results.ts';
 import type { State } from '../state.ts';
 import { twoSidedMesh } from './mesh.ts';
 

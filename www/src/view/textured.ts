@@ -5,6 +5,7 @@ import {
 } from 'three';
 import type { Object3D } from 'three';
 import type { ProxyGeometry, TexturedGeometry } from 'fast-winding';
+import { boundsOf, diagonal } from '../bounds.ts';
 import { token } from '../dom.ts';
 import type { Picture } from '../picture.ts';
 import { hueOf } from '../texture.ts';
@@ -14,8 +15,8 @@ import type { Surroundings } from './part.ts';
 
 const SEAM_PIXELS = 2;
 const DRAWN_PIXELS = 5;
-/** Radius of a ball at the end of a seam, as a part of the proxy's. */
-const BALL = 0.01;
+/** Radius of a ball at the end of a seam, as a part of the proxy's diagonal. */
+const BALL = 0.005;
 const ANISOTROPY = 8;
 /** Of a proxy around something else that is shown. */
 const SEEN_THROUGH = 0.3;
@@ -27,7 +28,9 @@ export function texturedMesh({ positions, indices, uvs }: TexturedGeometry, { ca
   const map = new CanvasTexture(canvas);
   map.colorSpace = SRGBColorSpace;
   map.anisotropy = ANISOTROPY;
-  return new Mesh(geometry, new MeshStandardMaterial({ map, side: DoubleSide, roughness: 0.9, metalness: 0, flatShading: true, clippingPlanes: cut }));
+  // What is marked on it lies before it.
+  const behind = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+  return new Mesh(geometry, new MeshStandardMaterial({ map, side: DoubleSide, roughness: 0.9, metalness: 0, flatShading: true, clippingPlanes: cut, ...behind }));
 }
 
 /** The proxy with a colour for each chart. */
@@ -73,7 +76,7 @@ export function drawnSeams(proxy: ProxyGeometry, seams: readonly Seam[], start: 
   if (edges.length > 0) objects.push(thickLines(places(proxy, edges, origin), '--view-chosen', DRAWN_PIXELS, cut));
   const ends = seams.flatMap(({ picks }) => picks);
   if (start !== undefined) ends.push(start);
-  if (ends.length > 0) objects.push(balls(places(proxy, ends, origin), BALL * radiusOf(proxy)));
+  if (ends.length > 0) objects.push(balls(places(proxy, ends, origin), BALL * diagonal(boundsOf(proxy.positions))));
   for (const object of objects) object.renderOrder = 2;
   return objects;
 }
@@ -84,17 +87,6 @@ function balls(centres: Float32Array, radius: number): InstancedMesh {
   for (let k = 0; k < count; k++) mesh.setMatrixAt(k, new Matrix4().makeTranslation(centres[3 * k], centres[3 * k + 1], centres[3 * k + 2]));
   mesh.frustumCulled = false;
   return mesh;
-}
-
-/** Half the diagonal of its box. */
-function radiusOf({ positions }: ProxyGeometry): number {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  positions.forEach((value, k) => {
-    low[k % 3] = Math.min(low[k % 3], value);
-    high[k % 3] = Math.max(high[k % 3], value);
-  });
-  return Math.hypot(...high.map((value, k) => value - low[k])) / 2;
 }
 
 /** Three vertices a triangle, relative to the scene. */

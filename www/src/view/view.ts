@@ -1,12 +1,14 @@
 import { Box3, Plane, Vector3 } from 'three';
+import { diagonal } from '../bounds.ts';
 import { colourOf, spanOf } from '../colour.ts';
 import { byId } from '../dom.ts';
-import { shadesOf } from '../measure.ts';
 import { significant } from '../format.ts';
-import { diagonal, ITEMS, planeHeight } from '../state.ts';
-import type { Item, Model, State } from '../state.ts';
-import { isSolid, madeOf, SOLIDS, withResult } from '../made.ts';
+import { isSolid, MADE, madeOf, SOLIDS, withResult } from '../made.ts';
 import type { Solid } from '../made.ts';
+import { shadesOf } from '../measure.ts';
+import { heightOf } from '../plane.ts';
+import { ITEMS } from '../state.ts';
+import type { Item, Model, State } from '../state.ts';
 import type { Store } from '../store.ts';
 import { drawAxes } from './axes.ts';
 import type { Box, Direction } from './framing.ts';
@@ -25,8 +27,6 @@ import { TexturingView } from './texturing.ts';
 
 const BOUNDARY_PIXELS = 2.5;
 
-/** Where in the state each solid is. */
-const SOURCES: Record<Solid, keyof State> = { voxels: 'voxels', surface: 'surface', repaired: 'repair', offset: 'offset', combined: 'combined', difference: 'comparison' };
 /** What the view is fitted to. */
 const BODIES: readonly Item[] = ['model', ...SOLIDS, 'second', 'proxy', 'fieldLines', 'textured'];
 /** What is seen with the model when it is beside what was made of it. */
@@ -117,7 +117,7 @@ export class View {
     });
     this.#store.on(['plane', 'heat', 'distances', 'model'], () => this.#showPlane());
     this.#store.on(['layer', 'heat', 'distances'], () => this.#showLayer());
-    for (const solid of SOLIDS) this.#store.on([SOURCES[solid]], () => this.#showSolid(solid));
+    for (const solid of SOLIDS) this.#store.on([solid === 'difference' ? 'comparison' : MADE[solid].slot], () => this.#showSolid(solid));
     this.#store.on(['against'], () => this.#showAgainst());
     this.#store.on(['visible'], () => this.#showVisible());
   }
@@ -164,7 +164,7 @@ export class View {
     const { model, plane, heat, distances } = this.#store.state;
     if (!model?.oriented) return this.#pane.replace();
     const { origin } = model.geometry;
-    const z = planeHeight(plane, model.bounds);
+    const z = heightOf(plane, model.bounds);
     this.#cutPlane.constant = z - origin[2];
     const rectangle = { min: [model.bounds.min[0], model.bounds.min[1]], max: [model.bounds.max[0], model.bounds.max[1]] } as const;
     // Colours of this height take the pane's place.

@@ -2,7 +2,7 @@ import type { Layer, SliceOptions } from '../../api.js';
 import { type Outcome, type Task, command } from '../command.js';
 import { type Values, given } from '../options.js';
 import { UsageError } from '../usage.js';
-import { figure, length, plural, volume } from '../words.js';
+import { figure, length, plural, volume, warningRows } from '../words.js';
 import { OF_GCODE, gcodeOf } from './gcode.js';
 
 const OPTIONS = {
@@ -81,7 +81,7 @@ async function together(task: Task, options: SliceOptions, values: SliceValues):
     await task.save(bytes);
     const minutes = `${figure(Math.round(estimate.seconds / 60))} min`;
     const print = `${minutes}, ${length(estimate.filamentLength)} of filament, ${figure(estimate.filamentMass)} g`;
-    return sum.outcome({ estimate, warnings }, [['print', print], ...warnings.map(({ message }): [string, string] => ['warning', message])]);
+    return sum.outcome({ estimate, warnings }, [['print', print], ...warningRows(warnings)]);
   }
   if (task.format === '3mf') {
     // The format wants a mesh beside the slices.

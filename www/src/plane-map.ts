@@ -18,13 +18,13 @@ export interface Rectangle {
   readonly max: readonly [number, number];
 }
 
-export function heatRectangle({ origin, spacing, counts }: PlaneMap): Rectangle {
+export function rectangleOf({ origin, spacing, counts }: PlaneMap): Rectangle {
   const min = [origin[0] - spacing[0] / 2, origin[1] - spacing[1] / 2] as const;
   return { min, max: [min[0] + counts[0] * spacing[0], min[1] + counts[1] * spacing[1]] };
 }
 
 /** The value at the sample nearest to (x, y), undefined outside the map. */
-export function heatAt(map: PlaneMap, x: number, y: number): number | undefined {
+export function valueAt(map: PlaneMap, x: number, y: number): number | undefined {
   const i = Math.round((x - map.origin[0]) / map.spacing[0]);
   const j = Math.round((y - map.origin[1]) / map.spacing[1]);
   if (i < 0 || j < 0 || i >= map.counts[0] || j >= map.counts[1]) return undefined;

@@ -1,13 +1,15 @@
+/** The stack of layers, and the plane that cuts one of them. */
 import type { Bounds } from 'fast-winding';
-import { niceBelow } from '../format.ts';
-import type { Plane } from '../state.ts';
+import { sizeOf } from './bounds.ts';
+import { niceBelow } from './format.ts';
+import type { Plane } from './state.ts';
 
 /** The stack is cut into about this many layers unless a layer height is given. */
 const LAYERS = 200;
 
 /** A plane through the middle of a stack of layers over the bounds. */
 export function planeFor(bounds: Bounds, layerHeight = defaultLayerHeight(bounds)): Plane {
-  const count = Math.max(1, Math.ceil(heightOf(bounds) / layerHeight - 1e-9));
+  const count = Math.max(1, Math.ceil(sizeOf(bounds)[2] / layerHeight - 1e-9));
   return { index: Math.floor(count / 2), count, layerHeight };
 }
 
@@ -18,11 +20,12 @@ export function withLayerHeight(plane: Plane, bounds: Bounds, layerHeight: numbe
   return { index: Math.min(count - 1, index), count, layerHeight };
 }
 
-function defaultLayerHeight(bounds: Bounds): number {
-  const height = heightOf(bounds);
-  return height > 0 ? niceBelow(height / LAYERS) : 1;
+/** Height of the plane, in the model's coordinates. */
+export function heightOf({ index, layerHeight }: Plane, { min }: Bounds): number {
+  return min[2] + (index + 0.5) * layerHeight;
 }
 
-function heightOf({ min, max }: Bounds): number {
-  return max[2] - min[2];
+function defaultLayerHeight(bounds: Bounds): number {
+  const [, , height] = sizeOf(bounds);
+  return height > 0 ? niceBelow(height / LAYERS) : 1;
 }
