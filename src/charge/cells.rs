@@ -3,6 +3,7 @@
 use super::elements::Elements;
 use super::multipole::SUMS;
 use super::polynomial;
+use super::sources::Sources;
 use super::sum::{Charged, Value, add_far};
 use super::walk::{Block, LANES, Lists, WITHOUT_OCTUPOLE, roots};
 use crate::bvh::{Child, WIDTH};
@@ -31,7 +32,7 @@ enum Parts {
     /// Clusters that are not far, none of them in another; numbers of the eight smaller cubes, 0 as long as there is none.
     Smaller { rest: Vec<u32>, cells: [u32; 8] },
     /// What is not far.
-    Whole(Lists),
+    Whole(Sources),
 }
 
 /// What is kept from one question to the next.
@@ -63,7 +64,7 @@ impl Cells {
             let cell = &self.cells[run[0].0 as usize];
             let found = match &cell.parts {
                 Parts::Smaller { .. } => charged.at(&Block::new(&own), &mut Lists::default()),
-                Parts::Whole(lists) => cell.at(charged, lists, &own),
+                Parts::Whole(sources) => cell.at(charged, sources, &own),
             };
             run.iter().zip(found).for_each(|((_, k), value)| values[*k as usize] = value);
         }
@@ -112,10 +113,10 @@ fn root(elements: &Elements) -> Cell {
 }
 
 impl Cell {
-    /// Potential and field at points in it, with what is not far as listed.
-    fn at(&self, charged: &Charged, lists: &Lists, points: &[Vec3]) -> Vec<Value> {
+    /// Potential and field at points in it, of which `sources` are not far.
+    fn at(&self, charged: &Charged, sources: &Sources, points: &[Vec3]) -> Vec<Value> {
         let block = Block::about(self.center, radius(self.half), points);
-        let mut values = charged.listed(&block, lists);
+        let mut values = sources.at(charged, &block);
         let mut sums = vec![[Octet::ZERO; SUMS]; block.groups.len()];
         polynomial::add(&self.values, self.half, &block, &mut sums);
         for (k, value) in values.iter_mut().enumerate() {
@@ -144,7 +145,9 @@ impl Cell {
         let Charged { elements, clusters, opening, .. } = charged;
         let is_leaf = |c: &u32| matches!(child(elements, *c), Child::Leaf { .. });
         let parts = if half < least || rest.len() <= FEW && rest.iter().all(is_leaf) {
-            Parts::Whole(Lists::of_ball(center, radius(half), elements, clusters, opening, rest.into_iter()))
+            let radius = radius(half);
+            let lists = Lists::of_ball(center, radius, elements, clusters, opening, rest.into_iter());
+            Parts::Whole(Sources::new(charged, &lists, center, radius))
         } else {
             Parts::Smaller { rest, cells: [0; 8] }
         };

@@ -1,16 +1,18 @@
 //! The potential and field of multipoles at as many points at once as registers hold.
-use super::moments::Series;
 use crate::math::Floats;
 
 /// What is summed at a point: the potential, and the field's three coordinates.
 pub const SUMS: usize = 4;
 
-/// Potential and field at `offset` from the middle of a series, by its terms up to `ORDER` (2 the quadrupole, 3 the octupole).
+/// Coefficients of a series to its quadrupole.
+pub const OF_QUADRUPOLE: usize = 10;
+
+/// Potential and field at `offset` from the middle of a series, by its terms up to `ORDER` (2 the quadrupole, 3 the octupole); `c`
+/// gives the coefficients.
 ///
 /// With u = R/r, φ = Σ Hₙ(u)/rⁿ⁺¹ and E = Σ ((2n + 1) Hₙ(u) u − ∇Hₙ(u))/rⁿ⁺².
 #[inline(always)]
-pub fn act<F: Floats<Number = f32>, const ORDER: usize>(series: &Series, offset: [F; 3]) -> [F; SUMS] {
-    let c = |k: usize| F::splat(series[k]);
+pub fn act<F: Floats<Number = f32>, const ORDER: usize>(c: impl Fn(usize) -> F, offset: [F; 3]) -> [F; SUMS] {
     let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
     let inverse = F::splat(1.0) / square.sqrt();
     let [x, y, z] = offset.map(|o| o * inverse);

@@ -66,10 +66,10 @@ impl Charged<'_> {
     }
 
     /// An element at the points next to it, exactly: eight at once, of whichever groups.
-    fn add_near(&self, block: &Block, i: usize, points: u64, values: &mut [Value]) {
+    pub fn add_near(&self, block: &Block, i: usize, points: u64, values: &mut [Value]) {
         let (corners, center) = (self.elements.corners[i], self.elements.centers[i]);
         let density = self.charges[i] / self.elements.areas[i];
-        let is_wide = is_wide(block, self.elements.sizes[i]);
+        let is_wide = is_wide(block.radius, self.elements.sizes[i]);
         let mut rest = points;
         while rest != 0 {
             let mut numbers = [0; LANES];
@@ -119,8 +119,9 @@ impl Charged<'_> {
     }
 }
 
-fn is_wide(block: &Block, size: f64) -> bool {
-    block.radius > WIDE * size
+/// Whether the points within `radius` are too coarse for an element's size.
+pub fn is_wide(radius: f64, size: f64) -> bool {
+    radius > WIDE * size
 }
 
 /// Elements next to some points of groups, each point for itself: by their series where it is not so near, and the others told.
@@ -151,7 +152,7 @@ impl Near<'_> {
             let center = (elements.centers[i] - block.center).to_array().map(|x| F::splat(x as f32));
             let reach = (opening.near * elements.sizes[i]) as f32;
             let reach_squared = F::splat(reach * reach);
-            let is_wide = is_wide(block, elements.sizes[i]);
+            let is_wide = is_wide(block.radius, elements.sizes[i]);
             let (mut near, mut rest) = (0, *groups & block.all());
             while rest != 0 {
                 let g = rest.trailing_zeros() as usize;
@@ -165,7 +166,7 @@ impl Near<'_> {
                     if far == 0 {
                         continue;
                     }
-                    let found = act::<F, 3>(&of_elements[i], offset);
+                    let found = act::<F, 3>(|k| F::splat(of_elements[i][k]), offset);
                     for (sum, found) in sums[g].iter_mut().zip(found) {
                         if far == every {
                             sum.add(part, found);
@@ -188,7 +189,7 @@ impl Near<'_> {
 
 fn act_alone(series: &Series, offset: Vec3) -> [f64; SUMS] {
     let offset = offset.to_array().map(|x| f32x4::splat(x as f32));
-    act::<f32x4, 3>(series, offset).map(|lanes| f64::from(lanes.to_array()[0]))
+    act::<f32x4, 3>(|k| f32x4::splat(series[k]), offset).map(|lanes| f64::from(lanes.to_array()[0]))
 }
 
 /// Adds what listed sources give at the groups by their series.
@@ -233,7 +234,8 @@ impl Far<'_> {
                     let center = self.centers[*source as usize] - self.block.center;
                     let center = center.to_array().map(|x| F::splat(x as f32));
                     let offset = [0, 1, 2].map(|axis| place[axis] - center[axis]);
-                    let found = act::<F, ORDER>(&self.series[*source as usize], offset);
+                    let series = &self.series[*source as usize];
+                    let found = act::<F, ORDER>(|k| F::splat(series[k]), offset);
                     total.iter_mut().zip(found).for_each(|(total, found)| *total = *total + found);
                 }
                 sums.iter_mut().zip(total).for_each(|(sum, total)| sum.add(part, total));
