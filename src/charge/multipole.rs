@@ -15,7 +15,7 @@ pub const OF_QUADRUPOLE: usize = 10;
 pub fn act<F: Floats<Number = f32>, const ORDER: usize>(c: impl Fn(usize) -> F, offset: [F; 3]) -> [F; SUMS] {
     let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
     let inverse = F::splat(1.0) / square.sqrt();
-    let [x, y, z] = offset.map(|o| o * inverse);
+    let [x, y, z] = [offset[0] * inverse, offset[1] * inverse, offset[2] * inverse];
     let (half, third) = (F::splat(0.5), F::splat(1.0 / 3.0));
     let mut slope =
         [c(4) * x + c(7) * y + c(8) * z, c(7) * x + c(5) * y + c(9) * z, c(8) * x + c(9) * y + c(6) * z];
@@ -29,8 +29,9 @@ pub fn act<F: Floats<Number = f32>, const ORDER: usize>(c: impl Fn(usize) -> F, 
         let xy = c(13) * x + c(15) * y + c(19) * z;
         let xz = c(14) * x + c(19) * y + c(17) * z;
         let yz = c(19) * x + c(16) * y + c(18) * z;
-        let steep = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z]
-            .map(|s| half * s * inverse);
+        let steep = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
+        let scale = half * inverse;
+        let steep = [scale * steep[0], scale * steep[1], scale * steep[2]];
         let octupole = third * (steep[0] * x + steep[1] * y + steep[2] * z);
         potential = potential + octupole;
         radial = radial + F::splat(7.0) * octupole;

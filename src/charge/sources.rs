@@ -25,7 +25,8 @@ impl<const N: usize> Eight<N> {
 
     #[inline(always)]
     fn offset<F: Floats<Number = f32>>(&self, part: usize, place: &[f32; 3]) -> [F; 3] {
-        [0, 1, 2].map(|axis| F::splat(place[axis]) - self.centers[axis].get::<F>(part))
+        let [x, y, z] = &self.centers;
+        [F::splat(place[0]) - x.get(part), F::splat(place[1]) - y.get(part), F::splat(place[2]) - z.get(part)]
     }
 
     #[inline(always)]

@@ -158,8 +158,8 @@ impl Near<'_> {
                 let g = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
                 for part in parts::<F>() {
-                    let place = |axis: usize| block.groups[g].places[axis].get::<F>(part) - center[axis];
-                    let offset = [place(0), place(1), place(2)];
+                    let [x, y, z] = &block.groups[g].places;
+                    let offset = [x.get(part) - center[0], y.get(part) - center[1], z.get(part) - center[2]];
                     let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
                     let far = if is_wide { 0 } else { square.greater(reach_squared) };
                     near |= u64::from(every & !far) << (g * LANES + part);
@@ -228,12 +228,14 @@ impl Far<'_> {
     fn add<F: Floats<Number = f32>, const ORDER: usize>(self) {
         for (g, (group, sums)) in self.block.groups.iter().zip(self.sums).enumerate() {
             for part in parts::<F>() {
-                let place = [0, 1, 2].map(|axis| group.places[axis].get::<F>(part));
+                let [x, y, z] = &group.places;
+                let place: [F; 3] = [x.get(part), y.get(part), z.get(part)];
                 let mut total = [F::splat(0.0); SUMS];
                 for (source, _) in self.list.iter().filter(|(_, groups)| groups >> g & 1 == 1) {
                     let center = self.centers[*source as usize] - self.block.center;
-                    let center = center.to_array().map(|x| F::splat(x as f32));
-                    let offset = [0, 1, 2].map(|axis| place[axis] - center[axis]);
+                    let axis = |x: f64| F::splat(x as f32);
+                    let offset =
+                        [place[0] - axis(center.x), place[1] - axis(center.y), place[2] - axis(center.z)];
                     let series = &self.series[*source as usize];
                     let found = act::<F, ORDER>(|k| F::splat(series[k]), offset);
                     total.iter_mut().zip(found).for_each(|(total, found)| *total = *total + found);
