@@ -23,15 +23,15 @@ pub fn act<F: Floats<Number = f32>, const ORDER: usize>(c: impl Fn(usize) -> F, 
     let mut potential = second;
     let mut radial = F::splat(5.0) * second;
     if ORDER >= 3 {
-        let xx = c(10) * x + c(13) * y + c(14) * z;
-        let yy = c(15) * x + c(11) * y + c(16) * z;
-        let zz = c(17) * x + c(18) * y + c(12) * z;
-        let xy = c(13) * x + c(15) * y + c(19) * z;
-        let xz = c(14) * x + c(19) * y + c(17) * z;
-        let yz = c(19) * x + c(16) * y + c(18) * z;
-        let steep = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
-        let scale = half * inverse;
-        let steep = [scale * steep[0], scale * steep[1], scale * steep[2]];
+        // O has no trace: Oᵢzz = −Oᵢxx − Oᵢyy.
+        let (xx, yy) = (half * (x * x - z * z), half * (y * y - z * z));
+        let (xy, xz, yz) = (x * y, x * z, y * z);
+        let steep = [
+            c(10) * xx + c(15) * yy + c(13) * xy + c(14) * xz + c(19) * yz,
+            c(13) * xx + c(11) * yy + c(15) * xy + c(19) * xz + c(16) * yz,
+            c(14) * xx + c(16) * yy + c(19) * xy + c(17) * xz + c(18) * yz,
+        ];
+        let steep = [steep[0] * inverse, steep[1] * inverse, steep[2] * inverse];
         let octupole = third * (steep[0] * x + steep[1] * y + steep[2] * z);
         potential = potential + octupole;
         radial = radial + F::splat(7.0) * octupole;

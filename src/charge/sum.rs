@@ -159,7 +159,11 @@ impl Near<'_> {
                 rest &= rest - 1;
                 for part in parts::<F>() {
                     let [x, y, z] = &block.groups[g].places;
-                    let offset = [x.get(part) - center[0], y.get(part) - center[1], z.get(part) - center[2]];
+                    let offset: [F; 3] = [
+                        x.get::<F>(part) - center[0],
+                        y.get::<F>(part) - center[1],
+                        z.get::<F>(part) - center[2],
+                    ];
                     let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
                     let far = if is_wide { 0 } else { square.greater(reach_squared) };
                     near |= u64::from(every & !far) << (g * LANES + part);
