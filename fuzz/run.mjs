@@ -10,7 +10,7 @@ import { StepFailed, program, run } from '../pkg-config/tools/run.mjs';
 const folder = import.meta.dirname;
 /** What the targets find, and how long they ran: outside the corpus, which holds what the tests run. */
 const work = join(folder, 'target/fuzzing');
-const LIMITS = ['-timeout=20', '-rss_limit_mb=3000', '-max_len=4096', '-print_final_stats=1'];
+const LIMITS = ['-timeout=60', '-rss_limit_mb=3000', '-max_len=4096', '-print_final_stats=1'];
 /** Ticks of a processor in a second, as Linux counts them. */
 const TICKS = 100;
 

@@ -8,14 +8,18 @@ const VARIANT = 'single';
 /** Smaller ones are counted together. */
 const LEAST_KIB = 8;
 
-/** The module of the crate that a mangled or demangled name belongs to, or the other crate. */
-function ownerOf(name) {
-  if (/^"?(data|custom|elem|type|import|export|memory|global|table|code)\b/.test(name) || /^"?\.?rodata/.test(name)) return 'tables and constants';
-  const own = name.match(/fast_winding(?:\[[0-9a-f]+\])?::(\w+)/);
-  if (own) return own[1];
-  const crate = name.match(/\b([a-z_][a-z0-9_]*)\[[0-9a-f]+\]/)?.[1] ?? name.match(/^"?<?([a-z_]\w*)::/)?.[1];
-  if (!crate) return 'glue and the rest';
-  return ['core', 'alloc', 'std'].includes(crate) ? 'standard library' : `crate ${crate}`;
+/** A row of twiggy's table: its name, which may hold commas, and its bytes; the last two columns stay empty. */
+const ROW = /^(.*),(\d+),[\d.]+,,$/;
+
+/** Whose code or data an item is: a module of the crate, another crate, or one of the calls it exports. Names of functions are not shipped. */
+function ownerOf(item) {
+  if (/subsection|^"*custom section/.test(item)) return undefined;
+  if (/^"*data segment/.test(item)) return 'constants';
+  const own = item.match(/fast_winding\[[0-9a-f]+\]::(\w+)/)?.[1];
+  if (own) return own;
+  const crate = item.match(/\b([a-z]\w*)\[[0-9a-f]+\]/)?.[1];
+  if (!crate) return 'calls from JavaScript';
+  return ['core', 'alloc', 'std'].includes(crate) ? 'standard library' : `${crate} (crate)`;
 }
 
 await program(async () => {
@@ -25,9 +29,10 @@ await program(async () => {
   const rows = output('twiggy', ['top', '-n', '1000000', '-f', 'csv', file], { maxBuffer: 1 << 28 });
   if (rows === undefined) throw new StepFailed(`twiggy cannot read ${file}`);
   const sizes = new Map();
-  for (const line of rows.split('\n').slice(1)) {
-    const match = line.match(/^(.*),(\d+),[\d.]+$/);
-    if (match) sizes.set(ownerOf(match[1]), (sizes.get(ownerOf(match[1])) ?? 0) + Number(match[2]) / 1024);
+  for (const line of rows.split('\n')) {
+    const [, item, bytes] = line.match(ROW) ?? [];
+    const owner = item && ownerOf(item);
+    if (owner) sizes.set(owner, (sizes.get(owner) ?? 0) + Number(bytes) / 1024);
   }
   const sorted = [...sizes].sort((a, b) => b[1] - a[1]);
   const rest = sorted.filter(([, size]) => size < LEAST_KIB);
