@@ -17,7 +17,7 @@
 //     textures    beside standard projections
 //     figures     those of the paper and of layers, as tables and as plots in docs/figures
 // Peers are installed into throw-away environments under the user's cache. What begins with -- and all after it goes to each of
-// them; for the figures it is `--models` and files:
+// them; for the figures it is `--only NAME` (scaling, layers, accuracy, quality), then `--models` and files:
 //     npm --prefix www run bench peers -- --rounds 5
 //     npm --prefix www run bench figures -- --models part.stl scan.ply
 import { mkdtempSync, rmSync } from 'node:fs';
@@ -101,11 +101,12 @@ const BENCHES = {
   textures: (options) => example('texture', ...options),
   async figures(options) {
     await npmInstall();
-    const further = options.includes('--models') ? options.slice(options.indexOf('--models') + 1) : [];
+    const at = options.indexOf('--models');
+    const [further, only] = at < 0 ? [[], options] : [options.slice(at + 1), options.slice(0, at)];
     const folder = mkdtempSync(join(tmpdir(), 'fast-winding-'));
     try {
       const models = [...FIGURE_MODELS.map((name) => model(folder, name)), ...further.map((path) => resolve(path))];
-      const cargo = ['run', '--release', '--example', 'figures', '--', join(root, 'docs/figures'), ...models];
+      const cargo = ['run', '--release', '--example', 'figures', '--', join(root, 'docs/figures'), ...models, ...only];
       await run('cargo', cargo, { cwd: root });
     } finally {
       rmSync(folder, { recursive: true });

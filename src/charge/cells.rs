@@ -3,6 +3,7 @@
 use super::elements::Elements;
 use super::multipole::SUMS;
 use super::polynomial;
+use super::sources::Sources;
 use super::sum::{Charged, Value, add_far};
 use super::walk::{Block, LANES, Lists, WITHOUT_OCTUPOLE, roots};
 use crate::bvh::{Child, WIDTH};
@@ -14,7 +15,7 @@ use crate::treecode::Octet;
 const FAR: f64 = 2.0;
 /// What is not far is left to smaller cubes, or to single questions, in clusters of at most this share of the radius.
 const LARGEST: f64 = 0.6;
-/// The edges of the cube that holds all others, in the elements' frame.
+/// The edges of the cube that holds all others are at least this, in the elements' frame.
 const ROOM: f64 = 2.0;
 /// Cubes with at most so many leaves of the tree that are not far have no smaller ones.
 const FEW: usize = 32;
@@ -31,26 +32,26 @@ enum Parts {
     /// Clusters that are not far, none of them in another; numbers of the eight smaller cubes, 0 as long as there is none.
     Smaller { rest: Vec<u32>, cells: [u32; 8] },
     /// What is not far.
-    Whole(Lists),
+    Whole(Sources),
 }
 
 /// What is kept from one question to the next.
 pub struct Cells {
     cells: Vec<Cell>,
-    /// Edges are not shorter than this.
-    least: f64,
+    /// Half the edges of the smallest cubes.
+    smallest: f64,
 }
 
 impl Cells {
-    /// No cube is to have edges shorter than `least`, in the elements' frame.
-    pub fn new(least: f64) -> Cells {
-        Cells { cells: Vec::new(), least }
+    /// The smallest cubes are to have edges of `edge`, in the elements' frame; there are none if that is infinite.
+    pub fn new(edge: f64) -> Cells {
+        Cells { cells: Vec::new(), smallest: 0.5 * edge }
     }
 
     /// Potential and field at finite points.
     pub fn at(&mut self, charged: &Charged, points: &[Vec3]) -> Vec<Value> {
         if self.cells.is_empty() {
-            self.cells.push(root(charged.elements));
+            self.cells.push(root(charged.elements, self.smallest));
         }
         let mut order: Vec<(u32, u32)> = Vec::with_capacity(points.len());
         for (k, point) in points.iter().enumerate() {
@@ -63,7 +64,7 @@ impl Cells {
             let cell = &self.cells[run[0].0 as usize];
             let found = match &cell.parts {
                 Parts::Smaller { .. } => charged.at(&Block::new(&own), &mut Lists::default()),
-                Parts::Whole(lists) => cell.at(charged, lists, &own),
+                Parts::Whole(sources) => cell.at(charged, sources, &own),
             };
             run.iter().zip(found).for_each(|((_, k), value)| values[*k as usize] = value);
         }
@@ -73,7 +74,7 @@ impl Cells {
     /// The smallest cube around a point; 0 if it is in none.
     fn around(&mut self, charged: &Charged, point: Vec3) -> u32 {
         let offset = (point - self.cells[0].center).abs().max_element();
-        if offset > self.cells[0].half || self.cells[0].half < self.least {
+        if offset > self.cells[0].half || self.smallest.is_infinite() {
             return 0;
         }
         let mut at = 0;
@@ -89,7 +90,7 @@ impl Cells {
             let mut next = cells[octant];
             if next == 0 {
                 next = self.cells.len() as u32;
-                let part = cell.part(charged, rest, middle, self.least);
+                let part = cell.part(charged, rest, middle, self.smallest);
                 self.cells.push(part);
                 if let Parts::Smaller { cells, .. } = &mut self.cells[at].parts {
                     cells[octant] = next;
@@ -100,22 +101,27 @@ impl Cells {
     }
 }
 
-/// Around all elements, which are in a cube with edges of 1 about the origin.
-fn root(elements: &Elements) -> Cell {
+/// Around all elements, which are in a cube with edges of 1 about the origin; halved some times, its edges are those of the
+/// smallest cubes.
+fn root(elements: &Elements, smallest: f64) -> Cell {
     let rest = roots(elements).collect();
+    let mut half = smallest;
+    while half < 0.5 * ROOM {
+        half *= 2.0;
+    }
     Cell {
         center: Vec3::ZERO,
-        half: 0.5 * ROOM,
+        half,
         values: vec![[0.0; SUMS]; polynomial::POINTS],
         parts: Parts::Smaller { rest, cells: [0; 8] },
     }
 }
 
 impl Cell {
-    /// Potential and field at points in it, with what is not far as listed.
-    fn at(&self, charged: &Charged, lists: &Lists, points: &[Vec3]) -> Vec<Value> {
+    /// Potential and field at points in it, of which `sources` are not far.
+    fn at(&self, charged: &Charged, sources: &Sources, points: &[Vec3]) -> Vec<Value> {
         let block = Block::about(self.center, radius(self.half), points);
-        let mut values = charged.listed(&block, lists);
+        let mut values = sources.at(charged, &block);
         let mut sums = vec![[Octet::ZERO; SUMS]; block.groups.len()];
         polynomial::add(&self.values, self.half, &block, &mut sums);
         for (k, value) in values.iter_mut().enumerate() {
@@ -127,7 +133,7 @@ impl Cell {
     }
 
     /// One of the eight cubes in it, of which `rest` is not far.
-    fn part(&self, charged: &Charged, rest: &[u32], center: Vec3, least: f64) -> Cell {
+    fn part(&self, charged: &Charged, rest: &[u32], center: Vec3, smallest: f64) -> Cell {
         let half = 0.5 * self.half;
         let (far, rest) = split(charged, rest, center, radius(half));
         let lists = far.map(|some| some.into_iter().map(|c| (c, u32::MAX)).collect::<Vec<(u32, u32)>>());
@@ -143,8 +149,10 @@ impl Cell {
         }
         let Charged { elements, clusters, opening, .. } = charged;
         let is_leaf = |c: &u32| matches!(child(elements, *c), Child::Leaf { .. });
-        let parts = if half < least || rest.len() <= FEW && rest.iter().all(is_leaf) {
-            Parts::Whole(Lists::of_ball(center, radius(half), elements, clusters, opening, rest.into_iter()))
+        let parts = if half <= smallest || rest.len() <= FEW && rest.iter().all(is_leaf) {
+            let radius = radius(half);
+            let lists = Lists::of_ball(center, radius, elements, clusters, opening, rest.into_iter());
+            Parts::Whole(Sources::new(charged, &lists, center, radius))
         } else {
             Parts::Smaller { rest, cells: [0; 8] }
         };

@@ -218,9 +218,9 @@ impl ElectricField {
         values.into_iter().map(|value| self.world(value)).collect()
     }
 
-    /// For [`ElectricField::at_moving`]: cubes with edges of at least `least`.
-    pub(super) fn cells(&self, least: f64) -> Cells {
-        Cells::new(self.elements.frame.scale * least)
+    /// For [`ElectricField::at_moving`]: the smallest cubes have edges of `edge`.
+    pub(super) fn cells(&self, edge: f64) -> Cells {
+        Cells::new(self.elements.frame.scale * edge)
     }
 
     fn local_block(&self, points: &[Vec3]) -> Block {

@@ -20,6 +20,7 @@ mod panel_lanes;
 mod polynomial;
 mod robin_hood;
 mod rule;
+mod sources;
 mod sum;
 mod system;
 mod trace;

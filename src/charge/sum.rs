@@ -66,10 +66,10 @@ impl Charged<'_> {
     }
 
     /// An element at the points next to it, exactly: eight at once, of whichever groups.
-    fn add_near(&self, block: &Block, i: usize, points: u64, values: &mut [Value]) {
+    pub fn add_near(&self, block: &Block, i: usize, points: u64, values: &mut [Value]) {
         let (corners, center) = (self.elements.corners[i], self.elements.centers[i]);
         let density = self.charges[i] / self.elements.areas[i];
-        let is_wide = is_wide(block, self.elements.sizes[i]);
+        let is_wide = is_wide(block.radius, self.elements.sizes[i]);
         let mut rest = points;
         while rest != 0 {
             let mut numbers = [0; LANES];
@@ -119,8 +119,9 @@ impl Charged<'_> {
     }
 }
 
-fn is_wide(block: &Block, size: f64) -> bool {
-    block.radius > WIDE * size
+/// Whether the points within `radius` are too coarse for an element's size.
+pub fn is_wide(radius: f64, size: f64) -> bool {
+    radius > WIDE * size
 }
 
 /// Elements next to some points of groups, each point for itself: by their series where it is not so near, and the others told.
@@ -151,21 +152,25 @@ impl Near<'_> {
             let center = (elements.centers[i] - block.center).to_array().map(|x| F::splat(x as f32));
             let reach = (opening.near * elements.sizes[i]) as f32;
             let reach_squared = F::splat(reach * reach);
-            let is_wide = is_wide(block, elements.sizes[i]);
+            let is_wide = is_wide(block.radius, elements.sizes[i]);
             let (mut near, mut rest) = (0, *groups & block.all());
             while rest != 0 {
                 let g = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
                 for part in parts::<F>() {
-                    let place = |axis: usize| block.groups[g].places[axis].get::<F>(part) - center[axis];
-                    let offset = [place(0), place(1), place(2)];
+                    let [x, y, z] = &block.groups[g].places;
+                    let offset: [F; 3] = [
+                        x.get::<F>(part) - center[0],
+                        y.get::<F>(part) - center[1],
+                        z.get::<F>(part) - center[2],
+                    ];
                     let square = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
                     let far = if is_wide { 0 } else { square.greater(reach_squared) };
                     near |= u64::from(every & !far) << (g * LANES + part);
                     if far == 0 {
                         continue;
                     }
-                    let found = act::<F, 3>(&of_elements[i], offset);
+                    let found = act::<F, 3>(|k| F::splat(of_elements[i][k]), offset);
                     for (sum, found) in sums[g].iter_mut().zip(found) {
                         if far == every {
                             sum.add(part, found);
@@ -188,7 +193,7 @@ impl Near<'_> {
 
 fn act_alone(series: &Series, offset: Vec3) -> [f64; SUMS] {
     let offset = offset.to_array().map(|x| f32x4::splat(x as f32));
-    act::<f32x4, 3>(series, offset).map(|lanes| f64::from(lanes.to_array()[0]))
+    act::<f32x4, 3>(|k| f32x4::splat(series[k]), offset).map(|lanes| f64::from(lanes.to_array()[0]))
 }
 
 /// Adds what listed sources give at the groups by their series.
@@ -227,13 +232,16 @@ impl Far<'_> {
     fn add<F: Floats<Number = f32>, const ORDER: usize>(self) {
         for (g, (group, sums)) in self.block.groups.iter().zip(self.sums).enumerate() {
             for part in parts::<F>() {
-                let place = [0, 1, 2].map(|axis| group.places[axis].get::<F>(part));
+                let [x, y, z] = &group.places;
+                let place: [F; 3] = [x.get(part), y.get(part), z.get(part)];
                 let mut total = [F::splat(0.0); SUMS];
                 for (source, _) in self.list.iter().filter(|(_, groups)| groups >> g & 1 == 1) {
                     let center = self.centers[*source as usize] - self.block.center;
-                    let center = center.to_array().map(|x| F::splat(x as f32));
-                    let offset = [0, 1, 2].map(|axis| place[axis] - center[axis]);
-                    let found = act::<F, ORDER>(&self.series[*source as usize], offset);
+                    let axis = |x: f64| F::splat(x as f32);
+                    let offset =
+                        [place[0] - axis(center.x), place[1] - axis(center.y), place[2] - axis(center.z)];
+                    let series = &self.series[*source as usize];
+                    let found = act::<F, ORDER>(|k| F::splat(series[k]), offset);
                     total.iter_mut().zip(found).for_each(|(total, found)| *total = *total + found);
                 }
                 sums.iter_mut().zip(total).for_each(|(sum, total)| sum.add(part, total));

@@ -5,20 +5,24 @@ use super::lines::{FieldLines, Integrator, LineConfig, LineError};
 use crate::bvh::{morton_code, sorted_codes};
 use crate::data::{Monitor, map_items, map_tasks};
 use crate::math::{Aabb, Vec3};
+use std::ops::RangeInclusive;
 
 /// Blocks of lines between two reports to the monitor.
-const BLOCKS_PER_REPORT: usize = 16;
+const BLOCKS_PER_REPORT: usize = 8;
 /// Steps get no shorter than this share of the whole one.
 const SHORTEST: f64 = 1.0 / 16.0;
 /// All steps lead this share of the diagonal away, if not told otherwise.
 const REACH: f64 = 0.1;
 const OFFSET: f64 = 0.1;
-/// Lines that are followed together.
-const TOGETHER: usize = 256;
+/// Lines that are followed together: more share more cubes, fewer keep more threads busy.
+const TOGETHER: RangeInclusive<usize> = 256..=1024;
+/// All lines are in as many parts, if those are neither too small nor too large.
+const PARTS: usize = 16;
 /// Fewer lines are followed without cubes.
 const LEAST_IN_CUBES: usize = 32;
-/// A cube's edge takes at least so many steps.
-const STEPS_IN_CUBE: f64 = 4.0;
+/// The edges of the smallest cubes are so many spacings of lines, or so many steps, whichever is more.
+const SPACINGS_IN_CUBE: f64 = 1.6;
+const STEPS_IN_CUBE: f64 = 6.4;
 
 /// Whether line `.0` ends with the segment from `.1` to `.2`.
 pub type Stop<'a> = &'a (dyn Fn(usize, Vec3, Vec3) -> bool + Sync);
@@ -68,7 +72,8 @@ pub fn trace_until(
     }
     let bounds = Aabb::around(starts.iter().copied());
     let order = sorted_codes(map_items(starts.len(), |k| morton_code(starts[k], &bounds))).1;
-    let blocks: Vec<&[u32]> = order.chunks(TOGETHER).collect();
+    let together = (starts.len() / PARTS).clamp(*TOGETHER.start(), *TOGETHER.end());
+    let blocks: Vec<&[u32]> = order.chunks(together).collect();
     let tracer = Tracer { field, config, step, offset, stop };
     let mut lines = vec![Vec::new(); starts.len()];
     for (n, some) in blocks.chunks(BLOCKS_PER_REPORT).enumerate() {
@@ -166,7 +171,11 @@ impl Tracer<'_> {
     fn cells(&self, starts: &[Vec3]) -> Cells {
         let spacing = Aabb::around(starts.iter().copied()).diagonal() / (starts.len() as f64).sqrt();
         let is_worth = starts.len() >= LEAST_IN_CUBES;
-        self.field.cells(if is_worth { spacing.max(STEPS_IN_CUBE * self.step) } else { f64::INFINITY })
+        self.field.cells(if is_worth {
+            (SPACINGS_IN_CUBE * spacing).max(STEPS_IN_CUBE * self.step)
+        } else {
+            f64::INFINITY
+        })
     }
 
     fn directions(&self, points: &[Vec3], cells: &mut Cells) -> Vec<Vec3> {

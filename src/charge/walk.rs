@@ -25,7 +25,7 @@ impl Default for Opening {
 }
 
 /// Farther than this times the distance where a series begins to be used, its octupole is left out.
-pub const WITHOUT_OCTUPOLE: f64 = 2.5;
+pub const WITHOUT_OCTUPOLE: f64 = 1.8;
 
 /// Eight points that are taken together.
 pub struct Group {
