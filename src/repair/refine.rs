@@ -2,7 +2,7 @@
 use super::edges::{edges, ends, opposite, sides_by_edge};
 use crate::data::Monitor;
 use crate::math::{Vec3, area_vector, barycentre};
-use crate::winding::{Accuracy, FieldError, WindingField};
+use crate::winding::{Accuracy, FieldError, THRESHOLD, WindingField};
 
 /// Rounds in which triangles are divided, edges flipped.
 const ROUNDS: usize = 12;
@@ -14,7 +14,6 @@ const MOST: usize = 20_000;
 /// Times that vertices are moved to the middle of their neighbours, and to the level set after.
 const SMOOTHED: usize = 60;
 const MOVED: usize = 12;
-const HALF: f64 = 0.5;
 /// How exactly w is known where vertices are moved.
 const TOLERANCE: f64 = 1e-4;
 
@@ -130,7 +129,7 @@ impl Cap {
             let slopes = field.gradients(&places, accuracy, monitor)?;
             for k in 0..count {
                 let steep = slopes[k].length_squared();
-                let step = (HALF - values[k]) / steep * slopes[k];
+                let step = (THRESHOLD - values[k]) / steep * slopes[k];
                 let step = if step.is_finite() { step.clamp_length_max(0.5 * reach[k]) } else { Vec3::ZERO };
                 self.points[self.rim + k] = places[k] + step;
             }
@@ -138,7 +137,7 @@ impl Cap {
         let places = self.points[self.rim..].to_vec();
         let values = field.evaluate(&places, accuracy, monitor)?;
         for k in 0..count {
-            if (values[k] - HALF).abs() > 0.01 || places[k].distance(smooth[k]) > 8.0 * reach[k] {
+            if (values[k] - THRESHOLD).abs() > 0.01 || places[k].distance(smooth[k]) > 8.0 * reach[k] {
                 self.points[self.rim + k] = smooth[k];
             }
         }

@@ -4,11 +4,10 @@ use super::edges::{edges, sides_by_edge};
 use super::faces::{Faces, NEW};
 use crate::data::{Monitor, Sets};
 use crate::math::{Vec3, barycentre, side_of_plane};
-use crate::winding::{Accuracy, FieldError, WindingField};
+use crate::winding::{Accuracy, FieldError, THRESHOLD, WindingField};
 
 /// Triangles of a patch that are asked: the largest ones, as next to slivers rounding may take one side for the other.
 const ASKED: usize = 5;
-const HALF: f64 = 0.5;
 
 /// Pieces with the same corners, taken as one.
 struct Sheet {
@@ -47,9 +46,9 @@ pub fn bounding(
                 .map(|piece| behind(faces, pieces, sheet, piece.1, *q))
                 .sum::<f64>();
         let back = before + f64::from(sheet.copies);
-        let answer = if before >= HALF {
+        let answer = if before >= THRESHOLD {
             1
-        } else if back >= HALF {
+        } else if back >= THRESHOLD {
             0
         } else {
             2

@@ -7,10 +7,9 @@ use super::operands::{Pieces, edge, edges, key};
 use crate::data::{Monitor, fill_in_blocks};
 use crate::levelset::crossing;
 use crate::math::{Aabb, Vec3};
-use crate::winding::{Accuracy, Scratch, WindingField};
+use crate::winding::{Accuracy, Scratch, THRESHOLD, WindingField};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-const HALF: f64 = 0.5;
 /// Largest error of w where sides are told.
 const TOLERANCE: f64 = 1e-4;
 /// Rounds of halving: an edge becomes a 4,000th of what it was.
@@ -135,7 +134,7 @@ impl Cutter<'_> {
             }
         }
         let values = self.field.evaluate(&points, Accuracy::Tolerance(TOLERANCE), monitor)?;
-        let mut values = values.into_iter().map(|w| w - HALF);
+        let mut values = values.into_iter().map(|w| w - THRESHOLD);
         let mut next = || values.next().unwrap_or_default();
         for vertex in vertices {
             let value = next();
@@ -244,7 +243,7 @@ impl Cutter<'_> {
         let find = |i: usize, scratch: &mut Scratch| {
             let [from, to] = crossed[i].map(|v| self.at(v));
             let at_zero = self.known[&crossed[i]].ends[0] >= 0.0;
-            crossing(at_zero, |t| self.field.is_nearly_above(from.lerp(to, t), HALF, scratch))
+            crossing(at_zero, |t| self.field.is_nearly_above(from.lerp(to, t), THRESHOLD, scratch))
         };
         fill_in_blocks(&mut shares, find, "cutting along the level set", monitor)?;
         let mut cuts: FxHashMap<[u32; 2], u32> = FxHashMap::default();

@@ -3,10 +3,10 @@
 //!
 //! Right off a closed surface without overlaps. Elsewhere it is wrong along whole rays: behind a hole, and where parts
 //! overlap or come twice; orientation does not matter to it.
-use super::FieldError;
 use crate::bvh::{Bvh, Child, Stack, WIDTH};
 use crate::data::{Monitor, TriangleSoup, fill_in_blocks, zeroed};
 use crate::math::{Aabb, Vec3};
+use crate::winding::FieldError;
 
 /// Which rays are asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
