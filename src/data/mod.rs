@@ -2,6 +2,7 @@
 mod blocks;
 mod bricks;
 mod cloud;
+mod directory;
 mod lattice;
 mod layers;
 mod lazy;
@@ -22,8 +23,9 @@ mod warning;
 pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit, zeroed};
 pub(crate) use blocks::{bit, byte_of};
 pub use bricks::{BRICK_SIDE, Brick, BrickBits, VoxelBricks};
-pub(crate) use bricks::{Directory, INSIDE, OUTSIDE, bit_of, mask_of_brick};
+pub(crate) use bricks::{bit_of, mask_of_brick};
 pub use cloud::{CloudError, OrientedCloud, PointCloud};
+pub(crate) use directory::{Directory, INSIDE, OUTSIDE};
 pub use lattice::{Grid, Lattice, LatticeError};
 pub use layers::{Layer, Polygon, Ring, sides, signed_area};
 pub(crate) use lazy::Lazy;
