@@ -23,24 +23,6 @@ pub fn zeroed<T: Clone + Default>(len: usize) -> Result<Vec<T>, OutOfMemory> {
     Ok(values)
 }
 
-/// A bit, lowest first.
-#[inline]
-pub fn bit(bits: &[u8], index: usize) -> bool {
-    bits[index / 8] >> (index % 8) & 1 == 1
-}
-
-/// Up to eight bits as a byte, lowest first.
-#[inline]
-pub fn byte_of(bits: impl DoubleEndedIterator<Item = bool>) -> u8 {
-    bits.rev().fold(0, |byte, bit| byte << 1 | u8::from(bit))
-}
-
-/// Sets or clears a bit, lowest first.
-pub fn set_bit(bits: &mut [u8], index: usize, value: bool) {
-    let bit = 1 << (index % 8);
-    bits[index / 8] = if value { bits[index / 8] | bit } else { bits[index / 8] & !bit };
-}
-
 /// Sets each of `values` to `value(its index, scratch)`, in parallel, with reports of `stage` to `monitor` between
 /// blocks.
 ///

@@ -1,7 +1,7 @@
 //! Voxels in bricks: memory grows with the surface of what is inside, not with its volume.
 use super::directory::{Directory, INSIDE, OUTSIDE};
 use super::voxels::{VoxelDataError, check_lattice};
-use super::{Lattice, OutOfMemory, VoxelRows, Voxels, zeroed};
+use super::{Lattice, OutOfMemory, VoxelRows, Voxels, ones, zeroed};
 
 /// Voxels along each side of a brick.
 pub const BRICK_SIDE: usize = 8;
@@ -120,8 +120,8 @@ impl VoxelBricks {
     pub fn count(&self) -> usize {
         let of_brick = |(at, brick): ([usize; 3], Brick)| match brick {
             Brick::Outside => 0,
-            Brick::Inside => ones(&self.mask(at)),
-            Brick::Mixed(bits) => ones(bits),
+            Brick::Inside => count_of(&self.mask(at)),
+            Brick::Mixed(bits) => count_of(bits),
         };
         self.each().map(of_brick).sum()
     }
@@ -151,10 +151,7 @@ impl VoxelBricks {
             let mask = self.mask(at);
             let bits = if let Brick::Mixed(bits) = brick { bits } else { &mask };
             for (k, plane) in bits.iter().enumerate() {
-                let mut plane = *plane;
-                while plane != 0 {
-                    let place = plane.trailing_zeros() as usize;
-                    plane &= plane - 1;
+                for place in ones(*plane) {
                     let [x, y, z] = at.map(|b| b * BRICK_SIDE);
                     voxels.set([x + place % BRICK_SIDE, y + place / BRICK_SIDE, z + k], true);
                 }
@@ -255,7 +252,7 @@ pub(crate) fn bit_of(bits: &BrickBits, sample: [usize; 3]) -> bool {
     bits[z] >> (BRICK_SIDE * y + x) & 1 == 1
 }
 
-fn ones(bits: &BrickBits) -> usize {
+fn count_of(bits: &BrickBits) -> usize {
     bits.iter().map(|plane| plane.count_ones() as usize).sum()
 }
 

@@ -1,4 +1,5 @@
 //! What goes in and what comes out: soups, clouds, lattices, voxels, layers, warnings. Plain data, validated once.
+mod bits;
 mod blocks;
 mod bricks;
 mod cloud;
@@ -20,8 +21,9 @@ mod usable;
 mod voxels;
 mod warning;
 
-pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, set_bit, zeroed};
-pub(crate) use blocks::{bit, byte_of};
+pub use bits::set_bit;
+pub(crate) use bits::{bit, byte_of, ones};
+pub use blocks::{BLOCK, OutOfMemory, fill_blocks, fill_in_blocks, for_each_lattice_block, zeroed};
 pub use bricks::{BRICK_SIDE, Brick, BrickBits, VoxelBricks};
 pub(crate) use bricks::{bit_of, mask_of_brick};
 pub use cloud::{CloudError, OrientedCloud, PointCloud};
