@@ -13,6 +13,7 @@ mod pairs;
 mod parallel;
 mod saved;
 mod sets;
+mod sides;
 mod soup;
 mod soup_cloud;
 mod topology;
@@ -38,6 +39,10 @@ pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each, sort_keyed,
 pub use saved::SavedError;
 pub(crate) use saved::{Loader, Saver};
 pub(crate) use sets::{Sets, TwoKinds};
+pub(crate) use sides::{
+    by_edge, edge_between, edge_key, edge_of_key, edges, ends, next_side, opposite, sides_by_edge, sorted,
+    turn_alike,
+};
 pub use soup::{SoupError, TriangleSoup};
 pub(crate) use topology::{Edge, LeftOut, Topology};
 pub use transform::TransformError;

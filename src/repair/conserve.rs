@@ -3,17 +3,17 @@
 //! The triangles, put right and closed by caps, are a soup whose winding number is an integer everywhere. Split along each other, its
 //! parts bound cells; the parts with w ≥ 1/2 on one side alone bound those inside: a closed surface, whatever the caps ran through.
 use super::agreement::agreement;
-use super::edges::{edges, net_edges, sides_by_edge};
+use super::bounding::bounding;
+use super::edges::{net_edges, sides_with_length};
 use super::faces::{Faces, NEW};
 use super::holes::close;
 use super::manifold::separate;
 use super::orientation::turn;
 use super::remesh::{median_edge, remesh};
-use super::sides::bounding;
 use super::stitch::stitch;
 use super::{Fallback, RemeshConfig, RepairError, RepairMethod, RepairReport, Repaired};
 use crate::arrangement::{Pairs, arrange};
-use crate::data::{Monitor, Parts, Sets, Shape, TriangleSoup};
+use crate::data::{Monitor, Parts, Sets, Shape, TriangleSoup, by_edge};
 use crate::math::area_vector;
 use crate::winding::WindingField;
 
@@ -196,9 +196,9 @@ pub(super) fn resolved(
 
 /// Drops pieces, triangles joined by edges, that enclose next to nothing.
 pub(super) fn drop_sheets(faces: &mut Faces, report: &mut RepairReport) {
-    let sides = sides_by_edge(&faces.triangles);
+    let sides = sides_with_length(&faces.triangles);
     let mut sets = Sets::new(faces.triangles.len());
-    edges(&sides).for_each(|same| same.iter().for_each(|(_, side)| sets.join(same[0].1 / 3, side / 3)));
+    by_edge(&sides).for_each(|same| same.iter().for_each(|(_, side)| sets.join(same[0].1 / 3, side / 3)));
     let of: Vec<u32> = (0..faces.triangles.len() as u32).map(|t| sets.find(t)).collect();
     let mut sizes = vec![(0.0, 0.0); of.len()];
     for (t, piece) in of.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! A cap with triangles as large as those around it, moved to the level set (refinement of Liepa 2003, *Filling Holes in Meshes*).
-use super::edges::{edges, ends, opposite, sides_by_edge};
-use crate::data::Monitor;
+use super::edges::sides_with_length;
+use crate::data::{Monitor, by_edge, edge_key, ends, opposite};
 use crate::math::{Vec3, area_vector, barycentre};
 use crate::winding::{Accuracy, FieldError, THRESHOLD, WindingField};
 
@@ -64,12 +64,12 @@ impl Cap {
 
     /// Flips edges within to the diagonal opposite to the smaller angles; how many.
     fn flip(&mut self) -> usize {
-        let sides = sides_by_edge(&self.triangles);
-        let has_edge = |a: u32, b: u32| sides.binary_search_by_key(&super::edges::key(a, b), |s| s.0).is_ok();
+        let sides = sides_with_length(&self.triangles);
+        let has_edge = |a: u32, b: u32| sides.binary_search_by_key(&edge_key(a, b), |s| s.0).is_ok();
         let mut is_touched = vec![false; self.triangles.len()];
         let mut new_edges = std::collections::BTreeSet::new();
         let mut flipped = 0;
-        for pair in edges(&sides).filter(|sides| sides.len() == 2) {
+        for pair in by_edge(&sides).filter(|sides| sides.len() == 2) {
             let [one, other] = [pair[0].1, pair[1].1];
             let [t, u] = [one as usize / 3, other as usize / 3];
             if is_touched[t] || is_touched[u] {
@@ -77,7 +77,7 @@ impl Cap {
             }
             let [a, b] = ends(&self.triangles, one);
             let [c, d] = [one, other].map(|side| opposite(&self.triangles, side));
-            let new = super::edges::key(c, d);
+            let new = edge_key(c, d);
             if c == d || has_edge(c, d) || new_edges.contains(&new) || !self.is_better_flipped(a, b, c, d) {
                 continue;
             }

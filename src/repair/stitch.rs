@@ -1,9 +1,9 @@
 //! Open edges that lie next to each other are joined: vertices welded, edges split where a vertex of another lies on them.
 use super::RepairReport;
-use super::edges::{edges, ends, key, opposite, sides_by_edge};
+use super::edges::sides_with_length;
 use super::faces::Faces;
 use crate::bvh::Bvh;
-use crate::data::{Cancelled, Monitor, Sets};
+use crate::data::{Cancelled, Monitor, Sets, by_edge, edge_key, ends, opposite};
 use crate::math::{Aabb, Vec3};
 
 /// Most items in a leaf of a tree.
@@ -34,8 +34,8 @@ pub fn stitch(
 
 /// Sides that run along an edge with no other.
 fn open_sides(faces: &Faces) -> Vec<u32> {
-    let sides = sides_by_edge(&faces.triangles);
-    edges(&sides).filter(|sides| sides.len() == 1).map(|sides| sides[0].1).collect()
+    let sides = sides_with_length(&faces.triangles);
+    by_edge(&sides).filter(|sides| sides.len() == 1).map(|sides| sides[0].1).collect()
 }
 
 fn vertices_of(faces: &Faces, sides: &[u32]) -> Vec<u32> {
@@ -73,8 +73,8 @@ fn weld_open(faces: &mut Faces, tolerance: f64) -> usize {
         return 0;
     }
     pairs.sort_unstable_by(|one, other| one.partial_cmp(other).expect("distances are numbers"));
-    let sides = sides_by_edge(&faces.triangles);
-    let is_edge = |a: u32, b: u32| sides.binary_search_by_key(&key(a, b), |side| side.0).is_ok();
+    let sides = sides_with_length(&faces.triangles);
+    let is_edge = |a: u32, b: u32| sides.binary_search_by_key(&edge_key(a, b), |side| side.0).is_ok();
     let mut sets = Sets::new(faces.positions.len());
     let mut members: std::collections::BTreeMap<u32, Vec<u32>> = Default::default();
     let mut welded = 0;

@@ -3,8 +3,8 @@
 //! Edges that change sides are halved until they are as short as asked for, large triangles near openings too; what still changes
 //! sides is cut where it does. Seams stay as they are: the field jumps there.
 use super::BooleanError;
-use super::operands::{Pieces, edge, edges, key};
-use crate::data::{Monitor, fill_in_blocks};
+use super::operands::Pieces;
+use crate::data::{Monitor, edge_between, edges, fill_in_blocks, sorted};
 use crate::levelset::crossing;
 use crate::math::{Aabb, Vec3};
 use crate::winding::{Accuracy, Scratch, THRESHOLD, WindingField};
@@ -74,7 +74,7 @@ pub fn cut(
     let mut places: FxHashMap<[u32; 3], u8> = FxHashMap::default();
     for (piece, corners) in pieces.corners.iter().enumerate() {
         if corners.iter().all(|v| is_cut[*v as usize]) {
-            *places.entry(key(*corners)).or_default() |= 1 << pieces.operand(piece);
+            *places.entry(sorted(*corners)).or_default() |= 1 << pieces.operand(piece);
         }
     }
     // Pieces that both have stay equal.
@@ -260,10 +260,10 @@ impl Cutter<'_> {
                 [] => continue,
                 [x] => {
                     let opposite = (0..3).find(|k| at[*k].is_some()).map_or(0, |k| corners[(k + 2) % 3]);
-                    vec![edge(x, opposite)]
+                    vec![edge_between(x, opposite)]
                 }
-                [x, y] => vec![edge(x, y)],
-                [x, y, z] => vec![edge(x, y), edge(y, z), edge(z, x)],
+                [x, y] => vec![edge_between(x, y)],
+                [x, y, z] => edges([x, y, z]).to_vec(),
                 _ => unreachable!("a triangle has three edges"),
             };
             self.pieces.seams.extend(chords);

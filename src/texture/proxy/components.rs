@@ -54,10 +54,7 @@ pub fn keep_outer(mesh: SurfaceMesh, monitor: &dyn Monitor) -> Result<Pieces, Ca
 
 fn components(mesh: &SurfaceMesh) -> Vec<Component> {
     let mut sets = Sets::new(mesh.positions.len());
-    for [a, b, c] in &mesh.triangles {
-        sets.join(*a, *b);
-        sets.join(*a, *c);
-    }
+    mesh.triangles.iter().for_each(|corners| sets.join_all(*corners));
     let mut numbers = vec![u32::MAX; mesh.positions.len()];
     let mut found: Vec<Component> = Vec::new();
     for (t, corners) in (0..).zip(&mesh.triangles) {
