@@ -23,7 +23,7 @@ pub use report::{
 
 use crate::bvh::Bvh;
 use crate::data::{LeftOut, Monitor, Parts, Shape, Topology, TriangleSoup, map_items};
-use crate::math::{Aabb, Vec3};
+use crate::math::{Aabb, Vec3, signed_volume};
 use crate::winding::{WindingField, weld};
 use faces::Face;
 
@@ -113,7 +113,7 @@ fn of_topology(
     }
     let count = |flags: &[bool]| flags.iter().filter(|flag| **flag).count();
     let anchor = soup.bounds().center();
-    let volume = (0..soup.len()).map(|t| faces::volume_of(soup.corners(t), anchor)).sum();
+    let volume = (0..soup.len()).map(|t| signed_volume(soup.corners(t), anchor)).sum();
     let is_copy = |t: usize| !topology.is_kept(t) && topology.first_copies[t] != Topology::COLLAPSED;
     let mut shells = found.shells;
     let mut flipped_shells: Vec<u32> =

@@ -20,5 +20,5 @@ pub use predicates::{
 };
 pub use ray::Ray;
 pub use registers::{Floats, Plain, Registers, Work, in_widest_registers};
-pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};
+pub use triangle::{area_vector, barycentre, distance_to_triangle, signed_volume, solid_angle};
 pub use triangles_meet::triangles_meet;

@@ -131,17 +131,19 @@ fn on_segment(faces: &Faces, side: u32, vertices: &[u32], bvh: &Bvh, tolerance: 
         return Vec::new();
     }
     let segment = Aabb::around([from, to]).padded(tolerance);
-    let touches = |bounds: &Aabb| bounds.min.cmple(segment.max).all() && segment.min.cmple(bounds.max).all();
     let direction = (to - from) / length;
-    bvh.for_each(touches, |k| {
-        let v = vertices[k];
-        let offset = faces.positions[v as usize] - from;
-        let along = offset.dot(direction);
-        let is_between = along > tolerance && along < length - tolerance;
-        if ![a, b, top].contains(&v) && is_between && (offset - along * direction).length() <= tolerance {
-            found.push((along, v));
-        }
-    });
+    bvh.for_each(
+        |bounds| bounds.overlaps(&segment),
+        |k| {
+            let v = vertices[k];
+            let offset = faces.positions[v as usize] - from;
+            let along = offset.dot(direction);
+            let is_between = along > tolerance && along < length - tolerance;
+            if ![a, b, top].contains(&v) && is_between && (offset - along * direction).length() <= tolerance {
+                found.push((along, v));
+            }
+        },
+    );
     found.sort_unstable_by(|one, other| one.partial_cmp(other).expect("places are numbers"));
     found.into_iter().map(|(_, v)| v).collect()
 }

@@ -175,9 +175,7 @@ impl Cutter<'_> {
                 let bounds = Aabb::around(corners.map(|v| self.at(v)));
                 let limit = openings
                     .iter()
-                    .filter(|(opening, _)| {
-                        bounds.min.cmple(opening.max).all() && opening.min.cmple(bounds.max).all()
-                    })
+                    .filter(|(opening, _)| bounds.overlaps(opening))
                     .map(|(_, limit)| *limit)
                     .fold(f64::INFINITY, f64::min);
                 let longest = of_piece
