@@ -3,8 +3,8 @@ use super::bricks::{Around, Bricks, LIMIT, corner_of};
 use super::cube_cases::{EDGES, TRIANGLES};
 use super::seeds::Cell;
 use super::{Blur, CLEARANCE};
-use crate::data::{Cancelled, Monitor, OutOfMemory, SurfaceMesh, ones};
-use crate::math::Vec3;
+use crate::data::{Cancelled, Lattice, Monitor, OutOfMemory, SurfaceMesh, ones};
+use crate::math::{Aabb, Vec3};
 
 /// Cubic cells in space: node (i, j, k) lies at `origin + spacing * (i, j, k)`, its cell is on the positive side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +14,11 @@ pub struct SurfaceGrid {
 }
 
 impl SurfaceGrid {
+    /// Nodes in the middles of the cells that cover bounds which are not empty, as those of [`Lattice::with_spacing`].
+    pub fn over(bounds: Aabb, spacing: f64) -> SurfaceGrid {
+        SurfaceGrid { origin: Lattice::cells_over(bounds, spacing).0, spacing }
+    }
+
     pub(super) fn position(&self, [x, y, z]: Cell) -> Vec3 {
         self.origin + self.spacing * Vec3::new(f64::from(x), f64::from(y), f64::from(z))
     }
