@@ -3,7 +3,6 @@ mod cells;
 mod components;
 mod level;
 mod offset;
-mod points;
 mod samples;
 mod sharp;
 mod sides;
@@ -12,13 +11,13 @@ mod trim;
 pub use level::suggested_level;
 pub use offset::{Drain, HollowConfig, OffsetConfig, OffsetError, hollow, offset, two_sided_offset};
 
+use crate::bvh::PointTree;
 use crate::data::{Cancelled, LatticeError, Monitor, Parts, Shape, SurfaceMesh};
 use crate::levelset::{TraceError, cells_of_points, cells_of_shape, trace_surface};
 use crate::math::Vec3;
 use crate::winding::{FieldError, THRESHOLD, WindingField};
 use cells::{area, grid};
 use components::keep_large;
-use points::Points;
 use samples::Samples;
 use sharp::{Limits, OfCloud, OfSoup, sharpen, tree_of};
 use sides::Sides;
@@ -160,7 +159,7 @@ pub fn extract(
             let mut mesh = trace_surface(&grid, &seeds, &samples, monitor)?;
             if let Some(limits) = limits {
                 monitor.begin(traced, 1.0);
-                let evidence = OfCloud { cloud, points: Points::new(cloud.points()), limits };
+                let evidence = OfCloud { cloud, points: PointTree::new(cloud.points()), limits };
                 sharpen(&mut mesh, &evidence, grid.spacing, limits, monitor)?;
             }
             if let Some(reach) = &reach {
