@@ -4,6 +4,7 @@ mod blocks;
 mod bricks;
 mod cloud;
 mod directory;
+mod edges;
 mod lattice;
 mod layers;
 mod lazy;
@@ -13,7 +14,7 @@ mod pairs;
 mod parallel;
 mod saved;
 mod sets;
-mod sides;
+
 mod soup;
 mod soup_cloud;
 mod topology;
@@ -29,6 +30,10 @@ pub use bricks::{BRICK_SIDE, Brick, BrickBits, VoxelBricks};
 pub(crate) use bricks::{bit_of, mask_of_brick};
 pub use cloud::{CloudError, OrientedCloud, PointCloud};
 pub(crate) use directory::{Directory, INSIDE, OUTSIDE};
+pub(crate) use edges::{
+    by_edge, edge_between, edge_key, edge_of_key, edges, ends, next_side, opposite, sides_by_edge, sorted,
+    turn_alike,
+};
 pub use lattice::{Grid, Lattice, LatticeError};
 pub use layers::{Layer, Polygon, Ring, sides, signed_area};
 pub(crate) use lazy::Lazy;
@@ -39,10 +44,6 @@ pub(crate) use parallel::{map_items, map_parts, map_tasks, set_each, sort_keyed,
 pub use saved::SavedError;
 pub(crate) use saved::{Loader, Saver};
 pub(crate) use sets::{Sets, TwoKinds};
-pub(crate) use sides::{
-    by_edge, edge_between, edge_key, edge_of_key, edges, ends, next_side, opposite, sides_by_edge, sorted,
-    turn_alike,
-};
 pub use soup::{SoupError, TriangleSoup};
 pub(crate) use topology::{Edge, LeftOut, Topology};
 pub use transform::TransformError;
