@@ -6,7 +6,7 @@ use crate::treecode::{Kernel, Order, Scratch, direct_sums};
 use crate::winding::closure::crossings_of_caps;
 use crate::winding::curtain::LANES;
 use crate::winding::exact::winding_of_soup;
-use crate::winding::gradient::edge_gradient;
+use crate::winding::gradient::{edge_gradient, rim_gradient};
 use crate::winding::surface_rule::share_of_touching;
 
 /// How the fraction is summed.
@@ -67,12 +67,9 @@ impl SoupField {
         {
             return tree.gradient(q, order, beta, scratch);
         }
-        let sides = |t: &u32| {
-            let [a, b, c] = self.soup.corners(*t as usize);
-            edge_gradient(q, a, b) + edge_gradient(q, b, c) + edge_gradient(q, c, a)
-        };
+        let rim = |t: &u32| rim_gradient(q, self.soup.corners(*t as usize));
         let capped: Vec3 = self.curtain.each_edge().map(|[a, b]| edge_gradient(q, a, b)).sum();
-        capped + self.closure.loose.iter().map(sides).sum::<Vec3>()
+        capped + self.closure.loose.iter().map(rim).sum::<Vec3>()
     }
 
     /// Crossings of the surface and the caps by the ray from `q`; none if `q` lies on the surface.
