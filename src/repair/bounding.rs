@@ -3,7 +3,7 @@ use super::RepairReport;
 use super::edges::sides_with_length;
 use super::faces::{Faces, NEW};
 use crate::data::{Monitor, Sets, by_edge, sorted, turn_alike};
-use crate::math::{Vec3, barycentre, side_of_plane};
+use crate::math::{Vec3, area_vector, barycentre, side_of_plane};
 use crate::winding::{Accuracy, FieldError, THRESHOLD, WindingField};
 
 /// Triangles of a patch that are asked: the largest ones, as next to slivers rounding may take one side for the other.
@@ -123,8 +123,7 @@ fn patches_of(sheets: &[Sheet]) -> Vec<u32> {
 
 fn weight(pieces: &Faces, sheet: &Sheet) -> f64 {
     // Above zero, so that a patch without area has an answer too.
-    crate::math::area_vector(sheet.triangle.map(|v| pieces.positions[v as usize])).length()
-        + f64::MIN_POSITIVE
+    area_vector(sheet.triangle.map(|v| pieces.positions[v as usize])).length() + f64::MIN_POSITIVE
 }
 
 /// The largest sheets of each patch.
