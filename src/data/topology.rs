@@ -109,7 +109,10 @@ impl Topology {
             (self.joined[one as usize], self.joined[other as usize]) = (other, one);
         }
         let mut shells = 0;
-        for t in (0..self.corners.len()).filter(|t| self.first_copies[*t] == *t as u32) {
+        for t in 0..self.corners.len() {
+            if !self.is_kept(t) {
+                continue;
+            }
             let (first, is_turned) = sets.find(t as u32);
             self.is_turned[t] = is_turned;
             // The first triangle stands for its shell, and comes first.

@@ -8,7 +8,7 @@ mod lattice;
 use crate::bvh::along_curve;
 use crate::data::{Cancelled, Monitor, OutOfMemory, Parts, fill_blocks, zeroed};
 use crate::distance::{Closest, DistanceTree, Search};
-use crate::math::Vec3;
+use crate::math::{Feature, Vec3};
 use crate::winding::{Accuracy, FieldError, WindingField};
 use std::sync::Arc;
 
@@ -224,7 +224,7 @@ impl SignedClosest {
             point: Vec3::NAN,
             element: 0,
             barycentric: [f64::NAN; 3],
-            feature: crate::math::Feature::Face,
+            feature: Feature::Face,
         },
         signed: f64::NAN,
         gradient: Vec3::NAN,

@@ -10,7 +10,7 @@ pub use hollow::{Drain, HollowConfig, hollow};
 
 use super::sharp::{Limits, sharpen};
 use super::{SurfaceConfig, SurfaceError, check_sharp};
-use crate::data::{LARGEST_COORDINATE, LatticeError, Monitor, Parts, SurfaceMesh};
+use crate::data::{Cancelled, LARGEST_COORDINATE, LatticeError, Monitor, Parts, SurfaceMesh};
 use crate::distance::DistanceTree;
 use crate::levelset::{SurfaceGrid, TraceError, trace_surface};
 use crate::math::Aabb;
@@ -75,8 +75,8 @@ impl From<TraceError> for OffsetError {
     }
 }
 
-impl From<crate::data::Cancelled> for OffsetError {
-    fn from(cancelled: crate::data::Cancelled) -> OffsetError {
+impl From<Cancelled> for OffsetError {
+    fn from(cancelled: Cancelled) -> OffsetError {
         SurfaceError::from(cancelled).into()
     }
 }
