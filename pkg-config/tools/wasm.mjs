@@ -14,9 +14,9 @@ const IN_MORE = new RegExp(
   [
     String.raw`fast_winding\[[0-9a-f]+\]::(${[
       String.raw`arrangement|check(?!::(boundary|components)\b)|distance|estimate|orient|polygon|print|repair|surface|charge|texture`,
-      'data::(bricks|topology)|bvh::(disc|first_hit|narrow|overlaps)|io::write::(dxf|json|nrrd|svg|textured|threemf|vox)|io::threemf',
-      'levelset::(cubes|cube_cases|bricks|blur|roots|sampling|squares)|math::(closest|ray|triangles_meet)',
-      'solid::(boolean|continuation|difference|distance|voxel_surface)|treecode::mutual|winding::stab',
+      'data::(bricks|directory|edges|topology)|bvh::(disc|first_hit|narrow|overlaps)|io::write::(dxf|json|nrrd|svg|textured|threemf|vox)|io::threemf',
+      'levelset::(cubes|cube_cases|bricks|blur|roots|sampling|squares)|math::(closest|random|ray|triangles_meet)',
+      'solid::(boolean|continuation|difference|distance|voxel_surface)|treecode::mutual|winding::baselines',
       'wasm::(boolean|checking|distance|layers|printing|repairing|texture_(failure|options)|texturing|projecting|voxels)',
     ].join('|')})::`,
     String.raw`fast_winding\[[0-9a-f]+\]::(slice::(?!heat_map)|solid::voxels::voxelize_(by_rays|bricks))`,

@@ -1,4 +1,5 @@
 //! How two triangles meet, by exact predicates: points named by what makes them, and segments between these.
+use crate::data::edge_between;
 use crate::math::{Sign, Vec2, Vec3, normal_signs, orient, side_of_plane};
 
 /// What makes a point: the same for every pair of triangles that has it.
@@ -47,12 +48,8 @@ pub struct Triangles<'a> {
     pub corners: &'a [[u32; 3]],
 }
 
-fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
-}
-
 pub fn edge(corners: [u32; 3], k: usize) -> [u32; 2] {
-    sorted([corners[k], corners[(k + 1) % 3]])
+    edge_between(corners[k], corners[(k + 1) % 3])
 }
 
 impl Triangles<'_> {
@@ -132,7 +129,7 @@ impl Triangles<'_> {
             [0, _] => [self.end_hit(a, triangle), None],
             [_, 0] => [self.end_hit(b, triangle), None],
             [s, t] if s == t => [None; 2],
-            _ => [self.crossing(sorted([a, b]), triangle), None],
+            _ => [self.crossing(edge_between(a, b), triangle), None],
         }
     }
 
@@ -203,7 +200,7 @@ impl Triangles<'_> {
             let is_crossed = sides[k] * sides[next] < 0
                 && orient(tips[k], tips[next], a) * orient(tips[k], tips[next], b) < 0;
             if is_crossed {
-                let key = crossed(sorted(ends), edge(corners, k));
+                let key = crossed(edge_between(ends[0], ends[1]), edge(corners, k));
                 add(Some(Hit { key, is_between: true, spot: Spot::Edge(k) }));
             }
         }

@@ -128,10 +128,7 @@ fn candidates(positions: &[Vec3], triangles: &[[u32; 3]], has_area: &[bool], pai
             let bounds = [0, 1].map(|side| boxes[side].iter().copied().fold(Aabb::EMPTY, Aabb::union));
             let mut kept: [(Vec<u32>, Vec<Aabb>); 2] = Default::default();
             for side in 0..2 {
-                let reaches = |b: &Aabb| {
-                    let other = bounds[1 - side];
-                    b.min.cmple(other.max).all() && other.min.cmple(b.max).all()
-                };
+                let reaches = |b: &Aabb| b.overlaps(&bounds[1 - side]);
                 let near =
                     sides[side].iter().copied().zip(boxes[side].iter().copied()).filter(|(_, b)| reaches(b));
                 kept[side] = near.unzip();

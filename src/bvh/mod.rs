@@ -11,9 +11,9 @@ mod sort;
 
 pub use build::cut_at_highest_bit;
 pub use first_hit::FirstHit;
-pub use morton::morton_code;
+pub use morton::{along_curve, morton_code};
 pub use narrow::{Found, NarrowBvh, Narrowed};
-pub use nearest::Nearest;
+pub use nearest::{Nearest, PointTree};
 pub use sort::sorted_codes;
 
 use crate::math::Aabb;

@@ -1,3 +1,5 @@
+use super::sorted_codes;
+use crate::data::map_items;
 use crate::math::{Aabb, Vec3};
 
 const BITS: u32 = 21;
@@ -19,6 +21,13 @@ fn spread(x: u64) -> u64 {
     let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
     let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
     (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+/// The numbers of points in the order of a curve through their box, on which neighbours are mostly near each other; where points
+/// that are not finite come does not matter.
+pub fn along_curve(points: &[Vec3]) -> Vec<u32> {
+    let bounds = Aabb::around(points.iter().copied().filter(|p| p.is_finite()));
+    sorted_codes(map_items(points.len(), |k| morton_code(points[k], &bounds))).1
 }
 
 #[cfg(test)]

@@ -1,5 +1,33 @@
 use super::{Bvh, Child, WIDTH};
-use crate::math::Vec3;
+use crate::math::{Aabb, Vec3};
+
+/// Most points in a leaf.
+const LEAF_SIZE: usize = 8;
+
+/// Points to look for the nearest of; built once, asked many times.
+pub struct PointTree {
+    bvh: Bvh,
+    /// In the order of the hierarchy's items: what is looked for together lies together.
+    ordered: Vec<Vec3>,
+}
+
+impl PointTree {
+    pub fn new(points: &[Vec3]) -> PointTree {
+        let box_of = |p: &Vec3| Aabb { min: *p, max: *p };
+        let bvh = Bvh::build(&points.iter().map(box_of).collect::<Vec<_>>(), LEAF_SIZE);
+        let ordered = bvh.items().iter().map(|&i| points[i as usize]).collect();
+        PointTree { bvh, ordered }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.ordered.is_empty()
+    }
+
+    /// The numbers of the points in the order of the tree, in which those that lie together follow each other.
+    pub fn items(&self) -> &[u32] {
+        self.bvh.items()
+    }
+}
 
 /// The search for what lies nearest to a point, with scratch space that many searches share.
 #[derive(Default)]
@@ -11,39 +39,33 @@ pub struct Nearest {
 }
 
 impl Nearest {
-    /// The `count` points nearest to that at `place`, itself among them, nearest first and equally near ones in the order
-    /// of their item numbers; fewer where there are not as many. `points` are those the hierarchy was built over, in the
-    /// order of its items.
-    pub fn find(&mut self, bvh: &Bvh, points: &[Vec3], place: usize, count: usize) -> &[(f64, u32)] {
+    /// The `count` points nearest to that at `place` in the order of the tree, itself among them, nearest first and equally near
+    /// ones in the order of their numbers; fewer where there are not as many.
+    pub fn find(&mut self, tree: &PointTree, place: usize, count: usize) -> &[(f64, u32)] {
+        let points = &tree.ordered;
         let center = points[place];
         // The points around it on the curve bound from the start how far to look.
         let first = place.saturating_sub(count / 2).min(points.len().saturating_sub(count));
         let around = first..points.len().min(first + count);
         let is_bounded = around.len() == count;
         let start = around.map(|place| points[place].distance_squared(center)).fold(0.0, f64::max);
-        self.search(bvh, points, center, count, if is_bounded { start } else { f64::INFINITY })
+        self.search(tree, center, count, if is_bounded { start } else { f64::INFINITY })
     }
 
-    /// The point nearest to `center` as squared distance and item number, of equally near ones that of the lowest number;
-    /// nothing if there are no points. `points` are as for [`Nearest::find`].
-    pub fn nearest_to(&mut self, bvh: &Bvh, points: &[Vec3], center: Vec3) -> Option<(f64, u32)> {
-        self.search(bvh, points, center, 1, f64::INFINITY).first().copied()
+    /// The point nearest to `center` as squared distance and number, of equally near points that of the lowest number; nothing if
+    /// there are no points.
+    pub fn nearest_to(&mut self, tree: &PointTree, center: Vec3) -> Option<(f64, u32)> {
+        self.search(tree, center, 1, f64::INFINITY).first().copied()
     }
 
     /// The `count` points nearest to `center`, in the order of [`Nearest::find`]; fewer where there are not as many.
-    pub fn around(&mut self, bvh: &Bvh, points: &[Vec3], center: Vec3, count: usize) -> &[(f64, u32)] {
-        self.search(bvh, points, center, count, f64::INFINITY)
+    pub fn around(&mut self, tree: &PointTree, center: Vec3, count: usize) -> &[(f64, u32)] {
+        self.search(tree, center, count, f64::INFINITY)
     }
 
     /// The `count` points nearest to `center`, none farther than the square root of `limit`.
-    fn search(
-        &mut self,
-        bvh: &Bvh,
-        points: &[Vec3],
-        center: Vec3,
-        count: usize,
-        limit: f64,
-    ) -> &[(f64, u32)] {
+    fn search(&mut self, tree: &PointTree, center: Vec3, count: usize, limit: f64) -> &[(f64, u32)] {
+        let PointTree { bvh, ordered: points } = tree;
         let distance = |place: usize| (points[place].distance_squared(center), bvh.items()[place]);
         let mut limit = (limit, u32::MAX);
         self.found.clear();
@@ -89,33 +111,30 @@ impl Nearest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Aabb;
 
     #[test]
     fn those_found_are_those_of_a_search_through_all() {
         let on_a_grid = |i: u32| Vec3::new(f64::from(i * 7 % 9), f64::from(i * 5 % 7), f64::from(i * 3 % 5));
         let scattered = |i: u32| Vec3::from_array([0.37, 1.73, 2.91].map(|s| (f64::from(i) * s).sin()));
-        assert_eq!(Nearest::default().nearest_to(&Bvh::build(&[], 4), &[], Vec3::ONE), None);
+        assert_eq!(Nearest::default().nearest_to(&PointTree::new(&[]), Vec3::ONE), None);
         for (total, points) in [(1, true), (7, false), (300, true), (700, false)] {
             let points: Vec<Vec3> =
                 (0..total).map(|i| if points { on_a_grid(i) } else { scattered(i) }).collect();
-            let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
-            let bvh = Bvh::build(&boxes, 4);
-            let ordered: Vec<Vec3> = bvh.items().iter().map(|&i| points[i as usize]).collect();
+            let tree = PointTree::new(&points);
             let mut nearest = Nearest::default();
-            for place in 0..points.len() {
+            for (place, own) in tree.ordered.iter().enumerate() {
                 let mut all: Vec<(f64, u32)> =
-                    (0..total).map(|i| (points[i as usize].distance_squared(ordered[place]), i)).collect();
+                    (0..total).map(|i| (points[i as usize].distance_squared(*own), i)).collect();
                 all.sort_by(|a, b| a.partial_cmp(b).unwrap());
                 for count in [1, 2, 21] {
                     let expected = &all[..all.len().min(count)];
-                    assert_eq!(nearest.find(&bvh, &ordered, place, count), expected);
+                    assert_eq!(nearest.find(&tree, place, count), expected);
                 }
-                let center = 1.1 * ordered[place] + Vec3::splat(0.3);
+                let center = 1.1 * *own + Vec3::splat(0.3);
                 let distances = points.iter().map(|p| p.distance_squared(center)).zip(0..);
                 let expected = distances.min_by(|a, b| a.partial_cmp(b).unwrap());
-                assert_eq!(nearest.nearest_to(&bvh, &ordered, center), expected);
-                let several = nearest.around(&bvh, &ordered, center, 5);
+                assert_eq!(nearest.nearest_to(&tree, center), expected);
+                let several = nearest.around(&tree, center, 5);
                 assert_eq!((several.len(), several.first().copied()), (points.len().min(5), expected));
             }
         }

@@ -60,7 +60,7 @@ fn step(
         let items = [0, 1].map(|side| &trees[side].items[trees[side].places(places[side].0)]);
         for (i, &first) in items[0].iter().enumerate() {
             for &second in &items[1][if is_same { i + 1 } else { 0 }..] {
-                if overlap(&boxes[0][first as usize], &boxes[1][second as usize]) {
+                if boxes[0][first as usize].overlaps(&boxes[1][second as usize]) {
                     found.push(if is_own { [first.min(second), first.max(second)] } else { [first, second] });
                 }
             }
@@ -75,7 +75,7 @@ fn step(
     let [firsts, seconds] = [0, 1].map(|side| parts[side].unwrap_or_else(|| whole(side)));
     for (i, first) in firsts.iter().enumerate().filter(|(_, part)| part.0 != Child::Empty) {
         for second in seconds[if is_same { i } else { 0 }..].iter().filter(|part| part.0 != Child::Empty) {
-            if overlap(&first.1, &second.1) {
+            if first.1.overlaps(&second.1) {
                 below.push([*first, *second]);
             }
         }
@@ -86,11 +86,6 @@ fn parts(tree: &Bvh, (child, _): (Child, Aabb)) -> Option<[(Child, Aabb); WIDTH]
     let Child::Inner(node) = child else { return None };
     let node = &tree.nodes[node as usize];
     Some([0, 1, 2, 3].map(|k| (node.children[k], node.bounds[k])))
-}
-
-#[inline]
-fn overlap(a: &Aabb, b: &Aabb) -> bool {
-    a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
 }
 
 #[cfg(test)]
@@ -116,13 +111,13 @@ mod tests {
             pairs.sort();
             let all = (0..m).flat_map(|i| (0..n).map(move |j| [i, j]));
             let expected: Vec<[u32; 2]> =
-                all.filter(|[i, j]| overlap(&a[*i as usize], &b[*j as usize])).collect();
+                all.filter(|[i, j]| a[*i as usize].overlaps(&b[*j as usize])).collect();
             assert_eq!(pairs, expected);
             let mut own = left.own_overlaps(&a);
             own.sort();
             let all = (0..m).flat_map(|i| (i + 1..m).map(move |j| [i, j]));
             let expected: Vec<[u32; 2]> =
-                all.filter(|[i, j]| overlap(&a[*i as usize], &a[*j as usize])).collect();
+                all.filter(|[i, j]| a[*i as usize].overlaps(&a[*j as usize])).collect();
             assert_eq!(own, expected);
         }
     }

@@ -12,9 +12,9 @@ use super::robin_hood;
 use super::sum::{Charged, Value, series_of_elements};
 use super::system::{Kept, Matrix, System};
 use super::walk::{Block, Lists, Opening};
-use crate::bvh::{morton_code, sorted_codes};
+use crate::bvh::along_curve;
 use crate::data::{BLOCK, Monitor, Parts, TriangleSoup, map_items, map_tasks};
-use crate::math::{Aabb, Vec3};
+use crate::math::Vec3;
 use std::sync::Arc;
 
 /// Up to so many elements all entries of the system are kept: 288 MB.
@@ -191,17 +191,16 @@ impl ElectricField {
 
     fn at(&self, points: &[Vec3]) -> Vec<Value> {
         let finite: Vec<u32> = (0..points.len() as u32).filter(|i| points[*i as usize].is_finite()).collect();
-        let bounds = Aabb::around(finite.iter().map(|i| points[*i as usize]));
-        let codes = map_items(finite.len(), |k| morton_code(points[finite[k] as usize], &bounds));
-        let order = sorted_codes(codes).1;
-        let place = |k: &u32| finite[*k as usize] as usize;
+        let places: Vec<Vec3> = finite.iter().map(|i| points[*i as usize]).collect();
+        let order = along_curve(&places);
         let tasks = map_tasks(order.len().div_ceil(BLOCK), |task| {
             let own = &order[task * BLOCK..order.len().min((task + 1) * BLOCK)];
-            let points: Vec<Vec3> = own.iter().map(|k| points[place(k)]).collect();
+            let points: Vec<Vec3> = own.iter().map(|k| places[*k as usize]).collect();
             self.at_block(&points, &mut Lists::default())
         });
         let mut values = vec![(f64::NAN, Vec3::NAN); points.len()];
-        order.iter().zip(tasks.into_iter().flatten()).for_each(|(k, value)| values[place(k)] = value);
+        let found = order.iter().zip(tasks.into_iter().flatten());
+        found.for_each(|(k, value)| values[finite[*k as usize] as usize] = value);
         values
     }
 

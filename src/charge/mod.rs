@@ -4,6 +4,12 @@
 //! A charge on each triangle makes the potential the same at all of their barycentres ([`ElectricField::solve`]); the field
 //! then leads from any point of the surface to any surface around it ([`trace`], [`first_hits`]), and no two lines cross.
 //! Coulomb's constant is 1: a charge q at a distance r has the potential q/r.
+//!
+//! The tree is not that of [`crate::treecode`], of which only the lanes and the frame are used. Charges are on triangles, evenly, so
+//! that what is near is not summed but given by closed forms of whole panels, point by point (`panel`), and the series begin with the
+//! monopole, which dipoles do not have (`moments`). And the same sources are asked again and again, by other charges while these are
+//! solved for (`system`) and by points that move on little by little (`cells`): what acts on a block of points is listed apart
+//! from what it adds (`walk`, `sum`), so that the lists can be kept.
 mod cells;
 mod clusters;
 mod config;

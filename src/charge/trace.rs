@@ -2,8 +2,8 @@
 use super::ElectricField;
 use super::cells::Cells;
 use super::lines::{FieldLines, Integrator, LineConfig, LineError};
-use crate::bvh::{morton_code, sorted_codes};
-use crate::data::{Monitor, map_items, map_tasks};
+use crate::bvh::along_curve;
+use crate::data::{Monitor, map_tasks};
 use crate::math::{Aabb, Vec3};
 use std::ops::RangeInclusive;
 
@@ -70,8 +70,7 @@ pub fn trace_until(
     if !(step > 0.0 && step.is_finite()) {
         return Err(LineError::BadLength { name: "step", value: step });
     }
-    let bounds = Aabb::around(starts.iter().copied());
-    let order = sorted_codes(map_items(starts.len(), |k| morton_code(starts[k], &bounds))).1;
+    let order = along_curve(starts);
     let together = (starts.len() / PARTS).clamp(*TOGETHER.start(), *TOGETHER.end());
     let blocks: Vec<&[u32]> = order.chunks(together).collect();
     let tracer = Tracer { field, config, step, offset, stop };

@@ -4,7 +4,12 @@ use crate::winding::{self, weld};
 /// Number of pieces of a soup: two triangles belong to one piece if a chain of triangles that share vertices, welded
 /// by exact position, leads from one to the other.
 pub fn components(soup: &TriangleSoup) -> usize {
-    let roots = winding::components(soup, &weld(soup.positions()));
+    components_of(soup, &weld(soup.positions()))
+}
+
+/// The same, given for each vertex the one in the same place that stands for it.
+pub(super) fn components_of(soup: &TriangleSoup, welded: &[u32]) -> usize {
+    let roots = winding::components(soup, welded);
     let mut of_triangles: Vec<u32> = soup.triangles().iter().map(|t| roots[t[0] as usize]).collect();
     of_triangles.sort_unstable();
     of_triangles.dedup();

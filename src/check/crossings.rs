@@ -34,12 +34,14 @@ pub fn crossings(
                 }
                 let corners = soup.corners(t);
                 let around = Aabb::around(corners);
-                let overlaps = |b: &Aabb| b.min.cmple(around.max).all() && around.min.cmple(b.max).all();
-                bvh.for_each(overlaps, |other| {
-                    if t < other && is_plain(other) && triangles_meet(corners, soup.corners(other)) {
-                        pairs.push([t as u32, other as u32]);
-                    }
-                });
+                bvh.for_each(
+                    |bounds| bounds.overlaps(&around),
+                    |other| {
+                        if t < other && is_plain(other) && triangles_meet(corners, soup.corners(other)) {
+                            pairs.push([t as u32, other as u32]);
+                        }
+                    },
+                );
             }
             pairs
         });

@@ -1,6 +1,6 @@
 //! Edges and vertices at which faces do not meet as they should.
 use super::report::{Boundary, List, Loop};
-use crate::data::{Edge, Topology, TriangleSoup, map_items};
+use crate::data::{Edge, Topology, TriangleSoup, map_items, next_side};
 use crate::math::Vec3;
 
 pub fn edges_where(topology: &Topology, limit: usize, wanted: impl Fn(&Edge) -> bool) -> List<[u32; 2]> {
@@ -39,12 +39,11 @@ pub fn boundary(topology: &Topology, soup: &TriangleSoup, limit: usize) -> Bound
     let open: Vec<u32> =
         topology.edges.iter().filter(|edge| edge.count == 1).map(|edge| topology.sides(edge)[0]).collect();
     let mut fans = topology.fans(false);
-    let corner_after = |side: u32| if side % 3 == 2 { side - 2 } else { side + 1 };
     // Two ends of open edges at each fan, or one where the fan ends at an edge of many faces: place in `open`, and which end.
     let mut ends: Vec<(u32, u32)> = Vec::with_capacity(2 * open.len());
     for (place, side) in open.iter().enumerate() {
         ends.push((fans.find(*side), 2 * place as u32));
-        ends.push((fans.find(corner_after(*side)), 2 * place as u32 + 1));
+        ends.push((fans.find(next_side(*side)), 2 * place as u32 + 1));
     }
     ends.sort_unstable();
     let mut across = vec![Topology::NONE; ends.len()];

@@ -25,9 +25,3 @@ pub fn faces(soup: &TriangleSoup) -> Vec<Face> {
         Face { area_vector, area, is_degenerate, slimness }
     })
 }
-
-/// The volume between a face and the point `anchor`, with a sign.
-pub fn volume_of(corners: [Vec3; 3], anchor: Vec3) -> f64 {
-    let [a, b, c] = corners.map(|p| p - anchor);
-    a.dot(b.cross(c)) / 6.0
-}

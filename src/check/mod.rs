@@ -23,8 +23,9 @@ pub use report::{
 
 use crate::bvh::Bvh;
 use crate::data::{LeftOut, Monitor, Parts, Shape, Topology, TriangleSoup, map_items};
-use crate::math::{Aabb, Vec3};
+use crate::math::{Aabb, Vec3, signed_volume};
 use crate::winding::{WindingField, weld};
+use components::components_of;
 use faces::Face;
 
 /// Most triangles in a leaf of the tree.
@@ -56,7 +57,8 @@ pub fn check(
     let boxes = map_items(soup.len(), |t| Aabb::around(soup.corners(t)));
     let bvh = Bvh::build(&boxes, LEAF_SIZE);
     monitor.report(0.05, "edges")?;
-    let topology = Topology::new(soup.triangles(), &weld(soup.positions()), LeftOut::Repeated);
+    let welded = weld(soup.positions());
+    let topology = Topology::new(soup.triangles(), &welded, LeftOut::Repeated);
     monitor.report(0.15, "self-intersections")?;
     let self_intersections = if config.self_intersections {
         let stage = stage("self-intersections", 0.15, 0.35);
@@ -84,7 +86,7 @@ pub fn check(
         field: volume,
         internal_faces: faces_where(soup, limit, |t| sides.is_internal(t)),
         outside_faces: faces_where(soup, limit, |t| sides.is_outside(t) && !found.is_flipped[t]),
-        ..of_topology(soup, &topology, &faces, found, config)
+        ..of_topology(soup, (&topology, &welded), &faces, found, config)
     };
     report.verdict = verdict::verdict(&report);
     monitor.report(1.0, "check")?;
@@ -98,13 +100,12 @@ fn faces_where(soup: &TriangleSoup, limit: usize, wanted: impl Fn(usize) -> bool
 /// The part of the report that is not about the field.
 fn of_topology(
     soup: &TriangleSoup,
-    topology: &Topology,
+    (topology, welded): (&Topology, &[u32]),
     faces: &[Face],
     found: shells::Shells,
     config: &CheckConfig,
 ) -> CheckReport {
     let limit = config.limit;
-    let welded = weld(soup.positions());
     let mut is_used = vec![false; welded.len()];
     let mut is_place = vec![false; welded.len()];
     for vertex in soup.triangles().iter().flatten() {
@@ -113,7 +114,7 @@ fn of_topology(
     }
     let count = |flags: &[bool]| flags.iter().filter(|flag| **flag).count();
     let anchor = soup.bounds().center();
-    let volume = (0..soup.len()).map(|t| faces::volume_of(soup.corners(t), anchor)).sum();
+    let volume = (0..soup.len()).map(|t| signed_volume(soup.corners(t), anchor)).sum();
     let is_copy = |t: usize| !topology.is_kept(t) && topology.first_copies[t] != Topology::COLLAPSED;
     let mut shells = found.shells;
     let mut flipped_shells: Vec<u32> =
@@ -145,7 +146,7 @@ fn of_topology(
         inconsistent_edges: edges::edges_where(topology, limit, |edge| {
             edges::is_inconsistent(topology, edge)
         }),
-        components: components(soup),
+        components: components_of(soup, welded),
         closed_shells: shells.iter().filter(|shell| shell.is_closed).count(),
         nested_shells: shells.iter().filter(|shell| shell.depth.is_some_and(|depth| depth > 0)).count(),
         inverted_shells: shells.iter().filter(|shell| shell.role == ShellRole::Inverted).count(),

@@ -1,10 +1,10 @@
 //! Pieces that hang together by edges of two faces: their shape, which is in which, and what they are in the solid.
-use super::faces::{Face, volume_of};
+use super::faces::Face;
 use super::report::{Shell, ShellRole};
 use super::sides::FaceSides;
 use crate::bvh::Bvh;
 use crate::data::{Topology, TriangleSoup, map_tasks};
-use crate::math::{Aabb, Vec3, meet};
+use crate::math::{Aabb, Vec3, meet, signed_volume};
 
 /// Shells, and the faces to turn.
 pub struct Shells {
@@ -42,7 +42,7 @@ pub fn shells(
         shell.faces += 1;
         shell.area += faces[t].area;
         with_first[number][turned] += faces[t].area;
-        let volume = volume_of(soup.corners(t), anchor);
+        let volume = signed_volume(soup.corners(t), anchor);
         volumes[number] += if turned == 0 { volume } else { -volume };
         means[number][turned] += sides.mean(t);
         kinds[number][turned].iter_mut().zip(sides.areas(t)).for_each(|(sum, area)| *sum += area);

@@ -119,19 +119,21 @@ fn jumps_at(sample: &Sample, soup: &TriangleSoup, faces: &[Face], bvh: &Bvh, rea
     let (q, normal) = (sample.point, faces[sample.face as usize].area_vector.normalize_or_zero());
     let near = Aabb { min: q, max: q }.padded(reach);
     let mut jumps = [0.0; 2];
-    let overlaps = |b: &Aabb| b.min.cmple(near.max).all() && near.min.cmple(b.max).all();
-    bvh.for_each(overlaps, |t| {
-        let cosine = faces[t].area_vector.normalize_or_zero().dot(normal);
-        let is_itself = t == sample.face as usize;
-        if !is_itself && (cosine.abs() < PARALLEL || distance_to_triangle(q, soup.corners(t)) > reach) {
-            return;
-        }
-        // Where q lies, along the normal of the sample's face; against the normal, w rises by the face's turn.
-        let turn = if is_itself { 1.0 } else { cosine.signum() };
-        let place = turn * f64::from(side_of_plane(q, soup.corners(t)));
-        jumps[0] -= turn * (0.5 - 0.5 * place);
-        jumps[1] += turn * (0.5 + 0.5 * place);
-    });
+    bvh.for_each(
+        |bounds| bounds.overlaps(&near),
+        |t| {
+            let cosine = faces[t].area_vector.normalize_or_zero().dot(normal);
+            let is_itself = t == sample.face as usize;
+            if !is_itself && (cosine.abs() < PARALLEL || distance_to_triangle(q, soup.corners(t)) > reach) {
+                return;
+            }
+            // Where q lies, along the normal of the sample's face; against the normal, w rises by the face's turn.
+            let turn = if is_itself { 1.0 } else { cosine.signum() };
+            let place = turn * f64::from(side_of_plane(q, soup.corners(t)));
+            jumps[0] -= turn * (0.5 - 0.5 * place);
+            jumps[1] += turn * (0.5 + 0.5 * place);
+        },
+    );
     jumps
 }
 

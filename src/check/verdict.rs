@@ -40,116 +40,21 @@ fn rounded(x: f64) -> String {
 }
 
 pub fn verdict(report: &CheckReport) -> Verdict {
-    let mut reasons = Vec::new();
-    let mut say = |kind: ReasonKind, count: usize, text: String| {
-        if count > 0 {
-            reasons.push(Reason { kind, count, text });
-        }
+    let solid = report.field.as_ref().map_or(1.0, |field| field.solid_volume);
+    let ambiguous = report.field.as_ref().map_or(0.0, |f| f.ambiguous_volume / f.solid_volume.max(1e-300));
+    let mut found = Findings {
+        report,
+        has_solid: has_solid(report),
+        does_not_fit: report.bed.is_some_and(|bed| !bed.fits && !bed.fits_turned),
+        ambiguous: ambiguous.min(1e3),
+        reasons: Vec::new(),
     };
-    let has_solid = has_solid(report);
-    say(
-        ReasonKind::NoSolid,
-        usize::from(!has_solid),
-        "nothing is inside: the faces bound no solid".to_owned(),
-    );
-    let does_not_fit = report.bed.is_some_and(|bed| !bed.fits && !bed.fits_turned);
-    let bed = report.bed.map_or([0.0; 3], |bed| bed.size).map(rounded).join(" × ");
-    say(ReasonKind::DoesNotFit, usize::from(does_not_fit), format!("does not fit into {bed} mm"));
-
-    let flipped = report.flipped_faces.count;
-    let shells = report.flipped_shells.max(1);
-    say(
-        ReasonKind::FlippedFaces,
-        flipped,
-        format!("flip {} in {}", faces(flipped), counted(shells, "shell", "shells")),
-    );
-    let field = report.field.as_ref();
-    let ambiguous = field.map_or(0.0, |f| f.ambiguous_volume / f.solid_volume.max(1e-300)).min(1e3);
-    let is_doubtful = ambiguous > DOUBTFUL;
-    say(
-        ReasonKind::Ambiguous,
-        usize::from(is_doubtful),
-        format!(
-            "inside or outside is not clear in a volume of {} % of the solid",
-            rounded(100.0 * ambiguous)
-        ),
-    );
-    let holes = report.boundary.loops.count;
-    let closed_by = if is_doubtful { "closed by the field as well as it can" } else { "closed by the field" };
-    let open = report.shells.count - report.closed_shells;
-    let text = if open > MANY_PIECES && 10 * open > report.triangles {
-        format!("{} with gaps between them, {closed_by}", counted(open, "loose piece", "loose pieces"))
-    } else {
-        format!("{} {closed_by}", counted(holes, "hole is", "holes are"))
-    };
-    say(ReasonKind::Holes, holes, text);
-    let inverted = field.map_or(0.0, |f| f.inverted_volume);
-    say(
-        ReasonKind::Inverted,
-        usize::from(inverted > 0.0 && report.inverted_shells == 0 && flipped == 0),
-        format!("{} mm³ are enclosed inside out, and empty", rounded(inverted)),
-    );
-    let internal = report.internal_faces.count;
-    say(
-        ReasonKind::InternalFaces,
-        internal,
-        format!("{} inside of the solid and left out", counted(internal, "face is", "faces are")),
-    );
-    let overlap = field.map_or(0.0, |f| f.overlap_volume);
-    say(
-        ReasonKind::Overlaps,
-        usize::from(overlap > NOTABLE * field.map_or(1.0, |f| f.solid_volume)),
-        format!("{} mm³ are enclosed more than once, and filled once", rounded(overlap)),
-    );
-    let outside = report.outside_faces.count;
-    say(
-        ReasonKind::OutsideFaces,
-        if has_solid { outside } else { 0 },
-        format!("{} no solid and left out", counted(outside, "face bounds", "faces bound")),
-    );
-    let crossing = report.self_intersections.as_ref().map_or(0, |list| list.count);
-    let pairs = counted(crossing, "pair of faces crosses", "pairs of faces cross");
-    say(
-        ReasonKind::SelfIntersections,
-        crossing,
-        format!("{pairs} or overlap: what they enclose together is printed"),
-    );
-    let (edges, vertices) = (report.non_manifold_edges.count, report.non_manifold_vertices.count);
-    let parts = [counted(edges, "edge", "edges"), counted(vertices, "vertex", "vertices")];
-    let parts: Vec<String> =
-        parts.into_iter().zip([edges, vertices]).filter(|p| p.1 > 0).map(|p| p.0).collect();
-    let verb = if edges + vertices == 1 { "is" } else { "are" };
-    let text = format!("{} {verb} not manifold, which the field does not mind", parts.join(" and "));
-    say(ReasonKind::NonManifold, edges + vertices, text);
-    let duplicates = report.duplicate_faces.count;
-    say(
-        ReasonKind::DuplicateFaces,
-        duplicates,
-        format!("{} there twice", counted(duplicates, "face is", "faces are")),
-    );
-    let degenerate = report.degenerate_faces.count;
-    say(
-        ReasonKind::DegenerateFaces,
-        degenerate,
-        format!("{} no area", counted(degenerate, "face has", "faces have")),
-    );
-    if let Some(thickness) = &report.thickness {
-        let thin = thickness.thin_faces.count;
-        let text = format!(
-            "{} thinner than {} mm: {} mm at the thinnest",
-            counted(thin, "face is", "faces are"),
-            rounded(thickness.threshold),
-            rounded(thickness.minimum)
-        );
-        say(ReasonKind::Thin, thin, text);
-    }
-    let overhangs = &report.overhangs;
-    say(
-        ReasonKind::Overhangs,
-        overhangs.faces.count,
-        format!("{} mm² lean out by more than {}°", rounded(overhangs.area), rounded(overhangs.angle)),
-    );
-    let rating = rating(report, &reasons, has_solid, is_doubtful || does_not_fit);
+    found.of_the_solid();
+    found.of_what_is_left_out(solid);
+    found.of_the_mesh();
+    found.of_the_print();
+    let rating = found.rating();
+    let Findings { reasons, .. } = found;
     let said = reasons.iter().take(3).map(|reason| reason.text.as_str()).collect::<Vec<_>>().join("; ");
     let text = match (rating, said.is_empty()) {
         (Rating::Clean, true) => "clean: prints as it is".to_owned(),
@@ -161,21 +66,119 @@ pub fn verdict(report: &CheckReport) -> Verdict {
     Verdict { rating, text, reasons }
 }
 
+/// What is to be said, the gravest first.
+struct Findings<'a> {
+    report: &'a CheckReport,
+    has_solid: bool,
+    does_not_fit: bool,
+    /// The volume in which inside and outside are not clear, as a share of the solid's.
+    ambiguous: f64,
+    reasons: Vec<Reason>,
+}
+
+impl Findings<'_> {
+    fn say(&mut self, kind: ReasonKind, count: usize, text: String) {
+        if count > 0 {
+            self.reasons.push(Reason { kind, count, text });
+        }
+    }
+
+    fn is_doubtful(&self) -> bool {
+        self.ambiguous > DOUBTFUL
+    }
+
+    fn of_the_solid(&mut self) {
+        let report = self.report;
+        let text = "nothing is inside: the faces bound no solid".to_owned();
+        self.say(ReasonKind::NoSolid, usize::from(!self.has_solid), text);
+        let bed = report.bed.map_or([0.0; 3], |bed| bed.size).map(rounded).join(" × ");
+        let text = format!("does not fit into {bed} mm");
+        self.say(ReasonKind::DoesNotFit, usize::from(self.does_not_fit), text);
+        let flipped = report.flipped_faces.count;
+        let shells = counted(report.flipped_shells.max(1), "shell", "shells");
+        self.say(ReasonKind::FlippedFaces, flipped, format!("flip {} in {shells}", faces(flipped)));
+        let ambiguous = rounded(100.0 * self.ambiguous);
+        let text = format!("inside or outside is not clear in a volume of {ambiguous} % of the solid");
+        self.say(ReasonKind::Ambiguous, usize::from(self.is_doubtful()), text);
+        let closed_by =
+            if self.is_doubtful() { "closed by the field as well as it can" } else { "closed by the field" };
+        let (holes, open) = (report.boundary.loops.count, report.shells.count - report.closed_shells);
+        let text = if open > MANY_PIECES && 10 * open > report.triangles {
+            format!("{} with gaps between them, {closed_by}", counted(open, "loose piece", "loose pieces"))
+        } else {
+            format!("{} {closed_by}", counted(holes, "hole is", "holes are"))
+        };
+        self.say(ReasonKind::Holes, holes, text);
+    }
+
+    fn of_what_is_left_out(&mut self, solid_volume: f64) {
+        let report = self.report;
+        let [inverted, overlap] =
+            report.field.as_ref().map_or([0.0; 2], |field| [field.inverted_volume, field.overlap_volume]);
+        let is_inverted = inverted > 0.0 && report.inverted_shells == 0 && report.flipped_faces.count == 0;
+        let text = format!("{} mm³ are enclosed inside out, and empty", rounded(inverted));
+        self.say(ReasonKind::Inverted, usize::from(is_inverted), text);
+        let internal = report.internal_faces.count;
+        let text = format!("{} inside of the solid and left out", counted(internal, "face is", "faces are"));
+        self.say(ReasonKind::InternalFaces, internal, text);
+        let text = format!("{} mm³ are enclosed more than once, and filled once", rounded(overlap));
+        self.say(ReasonKind::Overlaps, usize::from(overlap > NOTABLE * solid_volume), text);
+        let outside = if self.has_solid { report.outside_faces.count } else { 0 };
+        let text = format!("{} no solid and left out", counted(outside, "face bounds", "faces bound"));
+        self.say(ReasonKind::OutsideFaces, outside, text);
+    }
+
+    fn of_the_mesh(&mut self) {
+        let report = self.report;
+        let crossing = report.self_intersections.as_ref().map_or(0, |list| list.count);
+        let pairs = counted(crossing, "pair of faces crosses", "pairs of faces cross");
+        let text = format!("{pairs} or overlap: what they enclose together is printed");
+        self.say(ReasonKind::SelfIntersections, crossing, text);
+        let (edges, vertices) = (report.non_manifold_edges.count, report.non_manifold_vertices.count);
+        let parts = [counted(edges, "edge", "edges"), counted(vertices, "vertex", "vertices")];
+        let parts: Vec<String> =
+            parts.into_iter().zip([edges, vertices]).filter(|p| p.1 > 0).map(|p| p.0).collect();
+        let verb = if edges + vertices == 1 { "is" } else { "are" };
+        let text = format!("{} {verb} not manifold, which the field does not mind", parts.join(" and "));
+        self.say(ReasonKind::NonManifold, edges + vertices, text);
+        let duplicates = report.duplicate_faces.count;
+        let text = format!("{} there twice", counted(duplicates, "face is", "faces are"));
+        self.say(ReasonKind::DuplicateFaces, duplicates, text);
+        let degenerate = report.degenerate_faces.count;
+        let text = format!("{} no area", counted(degenerate, "face has", "faces have"));
+        self.say(ReasonKind::DegenerateFaces, degenerate, text);
+    }
+
+    fn of_the_print(&mut self) {
+        let report = self.report;
+        if let Some(thickness) = &report.thickness {
+            let thin = counted(thickness.thin_faces.count, "face is", "faces are");
+            let [least, limit] = [thickness.minimum, thickness.threshold].map(rounded);
+            let text = format!("{thin} thinner than {limit} mm: {least} mm at the thinnest");
+            self.say(ReasonKind::Thin, thickness.thin_faces.count, text);
+        }
+        let overhangs = &report.overhangs;
+        let [area, angle] = [overhangs.area, overhangs.angle].map(rounded);
+        let text = format!("{area} mm² lean out by more than {angle}°");
+        self.say(ReasonKind::Overhangs, overhangs.faces.count, text);
+    }
+
+    fn rating(&self) -> Rating {
+        let harmless = [ReasonKind::Thin, ReasonKind::Overhangs];
+        if !self.has_solid && self.report.inverted_shells == 0 {
+            Rating::NoSolid
+        } else if self.is_doubtful() || self.does_not_fit || self.report.flipped_faces.count > 0 {
+            Rating::Doubtful
+        } else if self.reasons.iter().all(|reason| harmless.contains(&reason.kind)) {
+            Rating::Clean
+        } else {
+            Rating::PrintsAsSeen
+        }
+    }
+}
+
 fn has_solid(report: &CheckReport) -> bool {
     let by_volume = report.field.as_ref().is_some_and(|field| field.solid_volume > 0.0);
     let bounds = |role: ShellRole| role == ShellRole::Boundary || role == ShellRole::Reversed;
     by_volume || report.shells.list.iter().any(|shell| bounds(shell.role))
-}
-
-fn rating(report: &CheckReport, reasons: &[Reason], has_solid: bool, is_doubtful: bool) -> Rating {
-    let harmless = [ReasonKind::Thin, ReasonKind::Overhangs];
-    if !has_solid && report.inverted_shells == 0 {
-        Rating::NoSolid
-    } else if is_doubtful || report.flipped_faces.count > 0 {
-        Rating::Doubtful
-    } else if reasons.iter().all(|reason| harmless.contains(&reason.kind)) {
-        Rating::Clean
-    } else {
-        Rating::PrintsAsSeen
-    }
 }

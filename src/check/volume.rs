@@ -49,7 +49,7 @@ pub fn field_check(
         return Ok(None);
     }
     let cell = size.max_element() / resolution as f64;
-    let counts = (size / cell - Vec3::splat(1e-9)).ceil().max(Vec3::ONE).to_array().map(|c| c as usize);
+    let counts = Lattice::cells_over(bounds, cell).1.to_array().map(|c| c as usize);
     // The cells fill the bounds exactly.
     let lattice = Lattice::with_counts(bounds, counts)?;
     let monitor = &Parts::new(monitor);

@@ -23,12 +23,6 @@ pub fn zeroed<T: Clone + Default>(len: usize) -> Result<Vec<T>, OutOfMemory> {
     Ok(values)
 }
 
-/// Sets or clears a bit, lowest first.
-pub fn set_bit(bits: &mut [u8], index: usize, value: bool) {
-    let bit = 1 << (index % 8);
-    bits[index / 8] = if value { bits[index / 8] | bit } else { bits[index / 8] & !bit };
-}
-
 /// Sets each of `values` to `value(its index, scratch)`, in parallel, with reports of `stage` to `monitor` between
 /// blocks.
 ///

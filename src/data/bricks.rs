@@ -1,115 +1,15 @@
 //! Voxels in bricks: memory grows with the surface of what is inside, not with its volume.
+use super::directory::{Directory, INSIDE, OUTSIDE};
 use super::voxels::{VoxelDataError, check_lattice};
-use super::{Lattice, OutOfMemory, VoxelRows, Voxels, zeroed};
+use super::{Lattice, OutOfMemory, VoxelRows, Voxels, ones, zeroed};
 
-/// Voxels along each side of a brick, and bricks along each side of a node.
+/// Voxels along each side of a brick.
 pub const BRICK_SIDE: usize = 8;
-const BRICKS_OF_NODE: usize = BRICK_SIDE * BRICK_SIDE * BRICK_SIDE;
+/// Voxels of a brick.
+const VOXELS: usize = BRICK_SIDE * BRICK_SIDE * BRICK_SIDE;
 
 /// A bit for each voxel of a brick, of one plane in each number: x fastest, then y.
 pub type BrickBits = [u64; BRICK_SIDE];
-
-/// Slots of a [`Directory`] that are no numbers of bricks.
-pub(crate) const OUTSIDE: u32 = u32::MAX;
-pub(crate) const INSIDE: u32 = u32::MAX - 1;
-const STATES: std::ops::RangeInclusive<u32> = INSIDE..=OUTSIDE;
-
-/// A slot for each brick of a lattice: a state, or the number of a brick that is kept elsewhere. Nodes of 8 × 8 × 8 bricks that
-/// are all in one state have one slot together.
-#[derive(Clone, Debug)]
-pub(crate) struct Directory {
-    /// Bricks, and nodes, along each axis.
-    bricks: [usize; 3],
-    nodes_along: [usize; 3],
-    /// Of the nodes, x fastest: a state, or where in `nodes` it is.
-    tops: Vec<u32>,
-    nodes: Vec<[u32; BRICKS_OF_NODE]>,
-}
-
-impl Directory {
-    /// A directory of a lattice, outside everywhere.
-    ///
-    /// # Errors
-    /// If and only if it does not fit in memory, or the lattice has more than [`Lattice::MAX_SAMPLES`].
-    pub fn new(lattice: &Lattice) -> Result<Directory, OutOfMemory> {
-        if lattice.len() > Lattice::MAX_SAMPLES {
-            return Err(OutOfMemory { bytes: lattice.len() });
-        }
-        let bricks = lattice.counts.map(|n| n.div_ceil(BRICK_SIDE));
-        let nodes_along = bricks.map(|n| n.div_ceil(BRICK_SIDE));
-        let mut tops = zeroed(nodes_along.iter().product())?;
-        tops.fill(OUTSIDE);
-        Ok(Directory { bricks, nodes_along, tops, nodes: Vec::new() })
-    }
-
-    /// Bricks along each axis.
-    pub fn bricks(&self) -> [usize; 3] {
-        self.bricks
-    }
-
-    fn top(&self, brick: [usize; 3]) -> usize {
-        let [i, j, k] = brick.map(|b| b / BRICK_SIDE);
-        (k * self.nodes_along[1] + j) * self.nodes_along[0] + i
-    }
-
-    pub fn get(&self, brick: [usize; 3]) -> u32 {
-        match self.tops[self.top(brick)] {
-            state if STATES.contains(&state) => state,
-            node => self.nodes[node as usize][place_in_node(brick)],
-        }
-    }
-
-    pub fn set(&mut self, brick: [usize; 3], slot: u32) {
-        let top = self.top(brick);
-        let mut node = self.tops[top];
-        if STATES.contains(&node) {
-            if node == slot {
-                return;
-            }
-            self.nodes.push([node; BRICKS_OF_NODE]);
-            node = self.nodes.len() as u32 - 1;
-            self.tops[top] = node;
-        }
-        self.nodes[node as usize][place_in_node(brick)] = slot;
-    }
-
-    /// Gives nodes that are all in one state one slot.
-    pub fn collapse(&mut self) {
-        let mut kept = Vec::new();
-        for top in 0..self.tops.len() {
-            let node = self.tops[top];
-            if STATES.contains(&node) {
-                continue;
-            }
-            let slots = self.nodes[node as usize];
-            let [nx, ny, _] = self.nodes_along;
-            let first = [top % nx, top / nx % ny, top / (nx * ny)].map(|n| n * BRICK_SIDE);
-            // A node may reach beyond the lattice.
-            let is_in = |place: usize| {
-                let at = [place % 8, place / 8 % 8, place / 64];
-                (0..3).all(|axis| first[axis] + at[axis] < self.bricks[axis])
-            };
-            let is_one = (0..BRICKS_OF_NODE).all(|p| slots[p] == slots[0] || !is_in(p));
-            self.tops[top] = if is_one && STATES.contains(&slots[0]) {
-                slots[0]
-            } else {
-                kept.push(slots);
-                kept.len() as u32 - 1
-            };
-        }
-        kept.shrink_to_fit();
-        self.nodes = kept;
-    }
-
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.tops[..]) + size_of_val(&self.nodes[..])
-    }
-}
-
-fn place_in_node(brick: [usize; 3]) -> usize {
-    let [i, j, k] = brick.map(|b| b % BRICK_SIDE);
-    (k * BRICK_SIDE + j) * BRICK_SIDE + i
-}
 
 /// Cells of a lattice, each inside or outside, in bricks of 8 × 8 × 8: those that hold both have a bit for each cell, the others
 /// share what they are.
@@ -159,12 +59,12 @@ impl VoxelBricks {
     ) -> Result<VoxelBricks, VoxelDataError> {
         check_lattice(&lattice)?;
         if mixed.len() != bits.len() {
-            let samples = mixed.len() * BRICKS_OF_NODE;
+            let samples = mixed.len() * VOXELS;
             let [found, expected] = [bits.len(), mixed.len()].map(|n| n * size_of::<BrickBits>());
             return Err(VoxelDataError::WrongLength { found, expected, samples });
         }
         let mut bricks = VoxelBricks::outside(&lattice)?;
-        let [nx, ny, nz] = bricks.directory.bricks;
+        let [nx, ny, nz] = bricks.directory.bricks();
         let count = nx * ny * nz;
         for places in [mixed, full] {
             let is_wrong = |k: &usize| places[*k] as usize >= count || *k > 0 && places[*k] <= places[*k - 1];
@@ -188,7 +88,7 @@ impl VoxelBricks {
 
     /// Bricks along each axis.
     pub fn counts(&self) -> [usize; 3] {
-        self.directory.bricks
+        self.directory.bricks()
     }
 
     /// What brick (i, j, k) holds.
@@ -202,7 +102,7 @@ impl VoxelBricks {
 
     /// The bricks in which something is inside, x fastest.
     pub fn each(&self) -> impl Iterator<Item = ([usize; 3], Brick<'_>)> {
-        let [nx, ny, nz] = self.directory.bricks;
+        let [nx, ny, nz] = self.directory.bricks();
         let places = (0..nx * ny * nz).map(move |b| [b % nx, b / nx % ny, b / (nx * ny)]);
         places.map(|at| (at, self.brick(at))).filter(|(_, brick)| *brick != Brick::Outside)
     }
@@ -220,8 +120,8 @@ impl VoxelBricks {
     pub fn count(&self) -> usize {
         let of_brick = |(at, brick): ([usize; 3], Brick)| match brick {
             Brick::Outside => 0,
-            Brick::Inside => ones(&self.mask(at)),
-            Brick::Mixed(bits) => ones(bits),
+            Brick::Inside => count_of(&self.mask(at)),
+            Brick::Mixed(bits) => count_of(bits),
         };
         self.each().map(of_brick).sum()
     }
@@ -251,12 +151,9 @@ impl VoxelBricks {
             let mask = self.mask(at);
             let bits = if let Brick::Mixed(bits) = brick { bits } else { &mask };
             for (k, plane) in bits.iter().enumerate() {
-                let mut plane = *plane;
-                while plane != 0 {
-                    let place = plane.trailing_zeros() as usize;
-                    plane &= plane - 1;
+                for place in ones(*plane) {
                     let [x, y, z] = at.map(|b| b * BRICK_SIDE);
-                    voxels.set([x + place % 8, y + place / 8, z + k], true);
+                    voxels.set([x + place % BRICK_SIDE, y + place / BRICK_SIDE, z + k], true);
                 }
             }
         }
@@ -291,7 +188,7 @@ impl VoxelBricks {
     /// Sets planes of samples, from the first of a brick on, by a bit for each as [`Voxels::bits`] has them.
     pub(crate) fn set_planes(&mut self, first: usize, bits: &[u8]) {
         let [nx, ny, nz] = self.lattice.counts;
-        let [across, along, _] = self.directory.bricks;
+        let [across, along, _] = self.directory.bricks();
         let planes = (nz - first).min(8 * bits.len() / (nx * ny).max(1));
         // Eight voxels from a place on; what lies beyond the row is left out by the brick's mask.
         let eight = |place: usize| {
@@ -303,10 +200,10 @@ impl VoxelBricks {
             for (j, i) in (0..along).flat_map(|j| (0..across).map(move |i| (j, i))) {
                 let mut brick = [0; BRICK_SIDE];
                 for (z, plane) in brick.iter_mut().enumerate().take(planes - k) {
-                    let rows = (8 * j..ny.min(8 * j + 8)).enumerate();
+                    let rows = (BRICK_SIDE * j..ny.min(BRICK_SIDE * (j + 1))).enumerate();
                     *plane = rows.fold(0, |plane, (y, row)| {
-                        let place = ((k + z) * ny + row) * nx + 8 * i;
-                        plane | u64::from(eight(place)) << (8 * y)
+                        let place = ((k + z) * ny + row) * nx + BRICK_SIDE * i;
+                        plane | u64::from(eight(place)) << (BRICK_SIDE * y)
                     });
                 }
                 if brick != [0; BRICK_SIDE] {
@@ -340,7 +237,7 @@ impl VoxelRows for VoxelBricks {
                 Brick::Outside => part.fill(0),
                 Brick::Inside => part.fill(1),
                 Brick::Mixed(bits) => {
-                    let row = bits[k % 8] >> (8 * (j % 8) + x % 8);
+                    let row = bits[k % BRICK_SIDE] >> (BRICK_SIDE * (j % BRICK_SIDE) + x % BRICK_SIDE);
                     part.iter_mut().enumerate().for_each(|(place, byte)| *byte = (row >> place & 1) as u8);
                 }
             }
@@ -352,10 +249,10 @@ impl VoxelRows for VoxelBricks {
 /// The bit of a voxel in its brick.
 pub(crate) fn bit_of(bits: &BrickBits, sample: [usize; 3]) -> bool {
     let [x, y, z] = sample.map(|s| s % BRICK_SIDE);
-    bits[z] >> (8 * y + x) & 1 == 1
+    bits[z] >> (BRICK_SIDE * y + x) & 1 == 1
 }
 
-fn ones(bits: &BrickBits) -> usize {
+fn count_of(bits: &BrickBits) -> usize {
     bits.iter().map(|plane| plane.count_ones() as usize).sum()
 }
 
@@ -363,7 +260,7 @@ fn ones(bits: &BrickBits) -> usize {
 pub(crate) fn mask_of_brick(lattice: &Lattice, brick: [usize; 3]) -> BrickBits {
     let [x, y, z] = [0, 1, 2].map(|axis| (lattice.counts[axis] - brick[axis] * BRICK_SIDE).min(BRICK_SIDE));
     let row = (1u64 << x) - 1;
-    let plane = (0..y).fold(0, |plane, y| plane | row << (8 * y));
+    let plane = (0..y).fold(0, |plane, y| plane | row << (BRICK_SIDE * y));
     std::array::from_fn(|k| if k < z { plane } else { 0 })
 }
 
@@ -426,7 +323,8 @@ mod tests {
         let lattice = lattice([130, 70, 9]);
         let full = Voxels::from_bytes(lattice, &vec![1; lattice.len()]).unwrap();
         let bricks = VoxelBricks::from_voxels(&full).unwrap();
-        assert_eq!((bricks.mixed(), bricks.directory.nodes.len()), (0, 0));
+        // A slot for each of 3 × 2 × 1 nodes.
+        assert_eq!((bricks.mixed(), bricks.bytes()), (0, 6 * size_of::<u32>()));
         assert_eq!(bricks.count(), lattice.len());
     }
 

@@ -30,6 +30,13 @@ fn check_length(what: &'static str, found: usize, points: usize) -> Result<(), C
     if found == points { Ok(()) } else { Err(CloudError::LengthMismatch { what, found, points }) }
 }
 
+fn check_areas(areas: &[f64]) -> Result<(), CloudError> {
+    match areas.iter().position(|a| !(a.is_finite() && *a >= 0.0)) {
+        Some(point) => Err(CloudError::BadArea { point, area: areas[point] }),
+        None => Ok(()),
+    }
+}
+
 /// In place: a raw scan can fill half the memory there is.
 fn keep<T>(mut values: Vec<T>, kept: &[bool]) -> Vec<T> {
     let mut kept = kept.iter();
@@ -53,9 +60,7 @@ impl PointCloud {
         }
         if let Some(areas) = &areas {
             check_length("areas", areas.len(), points.len())?;
-            if let Some(point) = areas.iter().position(|a| !(a.is_finite() && *a >= 0.0)) {
-                return Err(CloudError::BadArea { point, area: areas[point] });
-            }
+            check_areas(areas)?;
         }
         let finite: Vec<bool> = points.iter().map(|p| is_usable(*p)).collect();
         let oriented = |i: usize| normals.as_ref().is_none_or(|n| n[i].try_normalize().is_some());
@@ -63,7 +68,7 @@ impl PointCloud {
         let lost_points = finite.iter().filter(|f| !**f).count();
         let lost_normals = kept.iter().filter(|k| !**k).count() - lost_points;
         let counts = [(WarningKind::NonFinitePoints, lost_points), (WarningKind::BadNormals, lost_normals)];
-        let warnings = counts.into_iter().filter(|c| c.1 > 0).map(|(k, n)| Warning::new(k, n)).collect();
+        let warnings = Warning::counted(counts);
         let cloud = PointCloud {
             points: keep(points, &kept),
             normals: normals.map(|n| keep(n, &kept).into_iter().map(Vec3::normalize).collect()),
@@ -116,23 +121,8 @@ impl OrientedCloud {
     /// If and only if the lengths differ, a point has a coordinate that is not finite or beyond
     /// [`LARGEST_COORDINATE`], a normal is zero or not finite, or an area is
     /// negative or not finite.
-    pub fn new(
-        points: Vec<Vec3>,
-        mut normals: Vec<Vec3>,
-        areas: Vec<f64>,
-    ) -> Result<OrientedCloud, CloudError> {
-        check_length("normals", normals.len(), points.len())?;
-        check_length("areas", areas.len(), points.len())?;
-        if let Some(point) = points.iter().position(|p| !is_usable(*p)) {
-            return Err(CloudError::NonFinitePoint { point });
-        }
-        for (point, normal) in normals.iter_mut().enumerate() {
-            *normal = normal.try_normalize().ok_or(CloudError::BadNormal { point })?;
-        }
-        if let Some(point) = areas.iter().position(|a| !(a.is_finite() && *a >= 0.0)) {
-            return Err(CloudError::BadArea { point, area: areas[point] });
-        }
-        Ok(OrientedCloud { points, normals, areas })
+    pub fn new(points: Vec<Vec3>, normals: Vec<Vec3>, areas: Vec<f64>) -> Result<OrientedCloud, CloudError> {
+        OrientedCloud::checked(points, normals, areas, Vec3::try_normalize)
     }
 
     /// As [`OrientedCloud::new`] of normals that have length 1 already, to rounding: they keep their bits.
@@ -144,18 +134,26 @@ impl OrientedCloud {
         normals: Vec<Vec3>,
         areas: Vec<f64>,
     ) -> Result<OrientedCloud, CloudError> {
+        let is_unit = |n: Vec3| (n.length_squared() - 1.0).abs() < 1e-9;
+        OrientedCloud::checked(points, normals, areas, |n| is_unit(n).then_some(n))
+    }
+
+    /// With what `unit` makes of each normal, if it is one.
+    fn checked(
+        points: Vec<Vec3>,
+        mut normals: Vec<Vec3>,
+        areas: Vec<f64>,
+        unit: impl Fn(Vec3) -> Option<Vec3>,
+    ) -> Result<OrientedCloud, CloudError> {
         check_length("normals", normals.len(), points.len())?;
         check_length("areas", areas.len(), points.len())?;
         if let Some(point) = points.iter().position(|p| !is_usable(*p)) {
             return Err(CloudError::NonFinitePoint { point });
         }
-        let is_unit = |n: &Vec3| (n.length_squared() - 1.0).abs() < 1e-9;
-        if let Some(point) = normals.iter().position(|n| !is_unit(n)) {
-            return Err(CloudError::BadNormal { point });
+        for (point, normal) in normals.iter_mut().enumerate() {
+            *normal = unit(*normal).ok_or(CloudError::BadNormal { point })?;
         }
-        if let Some(point) = areas.iter().position(|a| !(a.is_finite() && *a >= 0.0)) {
-            return Err(CloudError::BadArea { point, area: areas[point] });
-        }
+        check_areas(&areas)?;
         Ok(OrientedCloud { points, normals, areas })
     }
 

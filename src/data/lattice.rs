@@ -58,14 +58,20 @@ impl Lattice {
         if bounds.is_empty() {
             return Err(LatticeError::EmptyBounds);
         }
-        // The slack keeps a side of exactly n cells from getting n + 1 by rounding.
-        let cells = (bounds.size() / spacing - Vec3::splat(1e-9)).ceil().max(Vec3::ONE);
+        let (origin, cells) = Lattice::cells_over(bounds, spacing);
         let total = cells.x * cells.y * cells.z;
         if total > Lattice::MAX_SAMPLES as f64 {
             return Err(LatticeError::TooMany(total));
         }
-        let origin = bounds.center() - 0.5 * spacing * (cells - Vec3::ONE);
         Ok(Lattice { origin, spacing: Vec3::splat(spacing), counts: cells.to_array().map(|c| c as usize) })
+    }
+
+    /// Cubic cells of edge `spacing` that cover bounds that are not empty, centred on them: the middle of the first, and how many there
+    /// are along each axis.
+    pub(crate) fn cells_over(bounds: Aabb, spacing: f64) -> (Vec3, Vec3) {
+        // The slack keeps a side of exactly n cells from getting n + 1 by rounding.
+        let cells = (bounds.size() / spacing - Vec3::splat(1e-9)).ceil().max(Vec3::ONE);
+        (bounds.center() - 0.5 * spacing * (cells - Vec3::ONE), cells)
     }
 
     /// Cells of an edge of `spacing` that a surface of `area` passes through are to be fewer than samples may be: what level sets of

@@ -1,5 +1,5 @@
 use super::TriangleSoup;
-use crate::math::{Vec3, area_vector};
+use crate::math::{Vec3, area_vector, signed_volume};
 
 /// An indexed triangle mesh made by this crate, with a unit normal for each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,11 +26,8 @@ impl SurfaceMesh {
     /// The enclosed volume, by the divergence theorem: meaningful for a closed mesh.
     pub fn volume(&self) -> f64 {
         let anchor = self.positions.first().copied().unwrap_or_default();
-        let tetrahedron = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|i| self.positions[i as usize] - anchor);
-            a.dot(b.cross(c)) / 6.0
-        };
-        self.triangles.iter().map(tetrahedron).sum()
+        let corners = |t: &[u32; 3]| t.map(|i| self.positions[i as usize]);
+        self.triangles.iter().map(|t| signed_volume(corners(t), anchor)).sum()
     }
 }
 

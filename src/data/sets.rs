@@ -6,18 +6,35 @@ impl Sets {
         Sets((0..count as u32).collect())
     }
 
+    /// Sets of which another member is known of each, no greater than itself; of the least it is the least itself.
+    pub fn of(parents: Vec<u32>) -> Sets {
+        Sets(parents)
+    }
+
     pub fn find(&mut self, mut member: u32) -> u32 {
         while self.0[member as usize] != member {
             // Half the path, for the next time.
-            self.0[member as usize] = self.0[self.0[member as usize] as usize];
-            member = self.0[member as usize];
+            let above = self.0[self.0[member as usize] as usize];
+            self.0[member as usize] = above;
+            member = above;
         }
         member
     }
 
     pub fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b) as usize] = a.min(b);
+        self.join_all([a, b]);
+    }
+
+    #[inline]
+    pub fn join_all<const N: usize>(&mut self, members: [u32; N]) {
+        let least = members.map(|member| self.find(member));
+        let lowest = least.into_iter().min().unwrap_or_default();
+        least.into_iter().for_each(|member| self.0[member as usize] = lowest);
+    }
+
+    /// The least member of the set of each.
+    pub fn into_least(mut self) -> Vec<u32> {
+        (0..self.0.len() as u32).map(|member| self.find(member)).collect()
     }
 }
 

@@ -84,7 +84,7 @@ impl TriangleSoup {
         });
         let counts =
             [(WarningKind::IndexOutOfRange, out_of_range), (WarningKind::NonFiniteFaces, non_finite)];
-        let warnings = counts.into_iter().filter(|c| c.1 > 0).map(|(k, n)| Warning::new(k, n)).collect();
+        let warnings = Warning::counted(counts);
         (TriangleSoup { positions, triangles }, warnings)
     }
 

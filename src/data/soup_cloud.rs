@@ -12,7 +12,7 @@ impl TriangleSoup {
             cloud.add(barycentre(corners), vector, vector.length());
         }
         let degenerate = self.len() - cloud.points.len();
-        (cloud.finish(), counted([(WarningKind::DegenerateFaces, degenerate)]))
+        (cloud.finish(), Warning::counted([(WarningKind::DegenerateFaces, degenerate)]))
     }
 
     /// The vertices in their order, each with a third of the area of the triangles around it and the direction of their
@@ -35,7 +35,7 @@ impl TriangleSoup {
         self.positions().iter().zip(&sums).for_each(|(p, (vector, area))| cloud.add(*p, *vector, *area));
         let unused = sums.iter().filter(|sum| sum.1 == 0.0).count();
         let cancelled = sums.len() - unused - cloud.points.len();
-        let warnings = counted([
+        let warnings = Warning::counted([
             (WarningKind::DegenerateFaces, degenerate),
             (WarningKind::UnusedVertices, unused),
             (WarningKind::BadNormals, cancelled),
@@ -47,10 +47,6 @@ impl TriangleSoup {
 /// Overflow of huge coordinates makes an area infinite.
 fn is_usable(vector: Vec3, area: f64) -> bool {
     vector.try_normalize().is_some() && area.is_finite()
-}
-
-fn counted<const N: usize>(counts: [(WarningKind, usize); N]) -> Vec<Warning> {
-    counts.into_iter().filter(|c| c.1 > 0).map(|(kind, count)| Warning::new(kind, count)).collect()
 }
 
 #[derive(Default)]

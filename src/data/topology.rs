@@ -1,5 +1,8 @@
 //! How the triangles of a soup hang together: edges, fans around vertices, shells.
-use super::{Sets, TwoKinds, map_items, sort_keyed};
+use super::{
+    Sets, TwoKinds, by_edge, edge_key, edge_of_key, ends, map_items, next_side, sides_by_edge, sort_keyed,
+    sorted, turn_alike,
+};
 
 /// An edge and the sides of triangles that run along it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,8 +75,7 @@ impl Topology {
 
     /// From where to where a side runs.
     pub fn ends(&self, side: u32) -> [u32; 2] {
-        let corners = self.corners[side as usize / 3];
-        [corners[side as usize % 3], corners[(side as usize + 1) % 3]]
+        ends(&self.corners, side)
     }
 
     /// The sides along an edge, ascending.
@@ -87,13 +89,9 @@ impl Topology {
     }
 
     fn find_edges(&mut self) {
-        let mut keyed: Vec<(u64, u32)> = Vec::with_capacity(3 * self.corners.len());
-        for t in (0..self.corners.len()).filter(|t| self.is_kept(*t)) {
-            keyed.extend((3 * t as u32..3 * t as u32 + 3).map(|side| (packed(self.ends(side)), side)));
-        }
-        sort_keyed(&mut keyed);
-        for same in keyed.chunk_by(|a, b| a.0 == b.0) {
-            let (ends, first) = ([(same[0].0 >> 32) as u32, same[0].0 as u32], self.sides.len() as u32);
+        let keyed = sides_by_edge(&self.corners, |side, _| self.is_kept(side as usize / 3));
+        for same in by_edge(&keyed) {
+            let (ends, first) = (edge_of_key(same[0].0), self.sides.len() as u32);
             self.edges.push(Edge { ends, first, count: same.len() as u32 });
             self.sides.extend(same.iter().map(|(_, side)| *side));
         }
@@ -111,7 +109,10 @@ impl Topology {
             (self.joined[one as usize], self.joined[other as usize]) = (other, one);
         }
         let mut shells = 0;
-        for t in (0..self.corners.len()).filter(|t| self.first_copies[*t] == *t as u32) {
+        for t in 0..self.corners.len() {
+            if !self.is_kept(t) {
+                continue;
+            }
             let (first, is_turned) = sets.find(t as u32);
             self.is_turned[t] = is_turned;
             // The first triangle stands for its shell, and comes first.
@@ -145,13 +146,12 @@ impl Topology {
     pub fn fans(&self, across_all: bool) -> Sets {
         let mut sets = Sets::new(3 * self.corners.len());
         let mut join = |one: u32, other: u32| {
-            let next = |side: u32| if side % 3 == 2 { side - 2 } else { side + 1 };
             if self.is_upward(one) == self.is_upward(other) {
                 sets.join(one, other);
-                sets.join(next(one), next(other));
+                sets.join(next_side(one), next_side(other));
             } else {
-                sets.join(one, next(other));
-                sets.join(next(one), other);
+                sets.join(one, next_side(other));
+                sets.join(next_side(one), other);
             }
         };
         for edge in &self.edges {
@@ -171,33 +171,20 @@ impl Topology {
     }
 }
 
-fn packed([a, b]: [u32; 2]) -> u64 {
-    u64::from(a.min(b)) << 32 | u64::from(a.max(b))
-}
-
-/// Whether two triangles with the same corners turn the same way.
-fn turn_alike(a: [u32; 3], b: [u32; 3]) -> bool {
-    [[b[0], b[1], b[2]], [b[1], b[2], b[0]], [b[2], b[0], b[1]]].contains(&a)
-}
-
 fn first_copies(corners: &[[u32; 3]], left_out: LeftOut) -> Vec<u32> {
     let mut first: Vec<u32> = (0..corners.len() as u32).collect();
     let mut keyed = Vec::with_capacity(corners.len());
-    let sorted = |t: u32| {
-        let mut corners = corners[t as usize];
-        corners.sort_unstable();
-        corners
-    };
+    let sorted = |t: u32| sorted(corners[t as usize]);
     for t in 0..corners.len() as u32 {
         let [a, b, c] = sorted(t);
         if a == b || b == c {
             first[t as usize] = Topology::COLLAPSED;
         } else {
-            keyed.push((packed([a, b]), t));
+            keyed.push((edge_key(a, b), t));
         }
     }
     sort_keyed(&mut keyed);
-    for same_edge in keyed.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+    for same_edge in by_edge(&keyed).filter(|same| same.len() > 1) {
         for (place, (_, t)) in same_edge.iter().enumerate() {
             let is_copy = |other: &&(u64, u32)| {
                 let alike = || turn_alike(corners[*t as usize], corners[other.1 as usize]);

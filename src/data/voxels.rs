@@ -1,4 +1,4 @@
-use super::{Lattice, OutOfMemory, set_bit, zeroed};
+use super::{Lattice, OutOfMemory, bit, byte_of, set_bit, zeroed};
 
 /// Cells of a lattice, each inside or outside, however they are kept.
 pub trait VoxelRows: Sync {
@@ -59,7 +59,7 @@ impl Voxels {
         check_length(bytes.len(), lattice.len(), &lattice)?;
         let mut bits = zeroed(lattice.len().div_ceil(8))?;
         for (byte, eight) in bits.iter_mut().zip(bytes.chunks(8)) {
-            *byte = eight.iter().rev().fold(0, |bits, inside| bits << 1 | u8::from(*inside != 0));
+            *byte = byte_of(eight.iter().map(|inside| *inside != 0));
         }
         Ok(Voxels { lattice, bits })
     }
@@ -74,7 +74,7 @@ impl Voxels {
     }
 
     fn at(&self, index: usize) -> bool {
-        self.bits[index / 8] >> (index % 8) & 1 == 1
+        bit(&self.bits, index)
     }
 
     pub(crate) fn set(&mut self, sample: [usize; 3], inside: bool) {

@@ -86,6 +86,12 @@ impl Warning {
     pub fn new(kind: WarningKind, count: usize) -> Warning {
         Warning { kind, count }
     }
+
+    /// Of those kinds that there are any of, in their order.
+    pub(crate) fn counted(counts: impl IntoIterator<Item = (WarningKind, usize)>) -> Vec<Warning> {
+        let some = counts.into_iter().filter(|(_, count)| *count > 0);
+        some.map(|(kind, count)| Warning { kind, count }).collect()
+    }
 }
 
 impl fmt::Display for Warning {

@@ -1,11 +1,9 @@
-use crate::bvh::{Bvh, Nearest};
+use crate::bvh::{Nearest, PointTree};
 use crate::data::{Cancelled, Monitor, fill_in_blocks};
-use crate::math::{Aabb, Vec3};
+use crate::math::Vec3;
 
 /// So many times as many neighbours are looked at where fewer than half of them look to a point's own side.
 const MORE: usize = 3;
-/// Most points in a leaf of the tree that finds them.
-const LEAF_SIZE: usize = 8;
 
 /// The nearest neighbours of every point, without the point itself, nearest first.
 pub(super) struct Neighbourhoods(Vec<Vec<u32>>);
@@ -21,20 +19,16 @@ impl Neighbourhoods {
         monitor: &dyn Monitor,
     ) -> Result<Neighbourhoods, Cancelled> {
         monitor.report(0.0, "neighbours")?;
-        let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
-        let bvh = Bvh::build(&boxes, LEAF_SIZE);
-        drop(boxes);
-        // In the tree's order: what is looked for together lies together.
-        let ordered: Vec<Vec3> = bvh.items().iter().map(|&i| points[i as usize]).collect();
+        let tree = PointTree::new(points);
         let mut lists = vec![Vec::new(); points.len()];
         let neighbours = |place: usize, nearest: &mut Nearest| {
-            let own = bvh.items()[place];
+            let own = tree.items()[place];
             let mut wanted = count;
-            let found = nearest.find(&bvh, &ordered, place, count + 1);
+            let found = nearest.find(&tree, place, count + 1);
             let faces_own_side = |near: &&(f64, u32)| is_same_side(normals, own, near.1);
             let found = if 2 * found.iter().filter(faces_own_side).count() < count {
                 wanted = MORE * count;
-                nearest.find(&bvh, &ordered, place, wanted + 1)
+                nearest.find(&tree, place, wanted + 1)
             } else {
                 found
             };
@@ -42,7 +36,7 @@ impl Neighbourhoods {
         };
         fill_in_blocks(&mut lists, neighbours, "neighbours", monitor)?;
         let mut by_point = vec![Vec::new(); points.len()];
-        bvh.items().iter().zip(lists).for_each(|(&point, list)| by_point[point as usize] = list);
+        tree.items().iter().zip(lists).for_each(|(&point, list)| by_point[point as usize] = list);
         Ok(Neighbourhoods(by_point))
     }
 

@@ -2,9 +2,9 @@
 use super::EstimateError;
 use super::curved::fit_height;
 use super::sites::Sites;
-use crate::bvh::{Bvh, Nearest};
+use crate::bvh::{Nearest, PointTree};
 use crate::data::{Monitor, fill_in_blocks};
-use crate::math::{Aabb, Vec3, fit_plane};
+use crate::math::{Vec3, fit_plane};
 use std::f64::consts::PI;
 
 /// Points that a surface is fitted to. On a bunny of 3,000 points without noise, 40 leave a fifth of the spacing, as curvature
@@ -12,8 +12,6 @@ use std::f64::consts::PI;
 const NEIGHBOURS: usize = 16;
 /// Points that are looked at, spread over the cloud.
 const LOOKED_AT: usize = 2000;
-/// Most points in a leaf of the tree that finds neighbours.
-const LEAF_SIZE: usize = 8;
 /// Numbers that a fitted quadratic surface takes from the deviations.
 const TERMS: f64 = 6.0;
 
@@ -55,24 +53,19 @@ pub fn deviations(points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f64>, Es
     let patches = Patches::new(&sites.points);
     let found = patches.look_at(sites.points.len(), monitor)?;
     let mut of_sites = vec![0.0; found.len()];
-    patches.bvh.items().iter().zip(found).for_each(|(site, (_, noise))| of_sites[*site as usize] = noise);
+    patches.tree.items().iter().zip(found).for_each(|(site, (_, noise))| of_sites[*site as usize] = noise);
     Ok(sites.spread(of_sites))
 }
 
 /// Points and their neighbours.
 struct Patches<'a> {
     points: &'a [Vec3],
-    bvh: Bvh,
-    /// In the order of the tree.
-    ordered: Vec<Vec3>,
+    tree: PointTree,
 }
 
 impl Patches<'_> {
     fn new(points: &[Vec3]) -> Patches<'_> {
-        let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
-        let bvh = Bvh::build(&boxes, LEAF_SIZE);
-        let ordered = bvh.items().iter().map(|&i| points[i as usize]).collect();
-        Patches { points, bvh, ordered }
+        Patches { points, tree: PointTree::new(points) }
     }
 
     /// Spacing and deviation at up to `most` points, evenly chosen, in the order of the tree.
@@ -81,7 +74,7 @@ impl Patches<'_> {
         let mut found = vec![(0.0, 0.0); count];
         let of_point = |k: usize, nearest: &mut Nearest| {
             let place = k * self.points.len() / count;
-            let near = nearest.find(&self.bvh, &self.ordered, place, NEIGHBOURS);
+            let near = nearest.find(&self.tree, place, NEIGHBOURS);
             let reach = near.last().map_or(0.0, |n| n.0.sqrt());
             let patch: Vec<Vec3> = near.iter().map(|n| self.points[n.1 as usize]).collect();
             ((PI * reach * reach / patch.len() as f64).sqrt(), deviation(&patch, reach))

@@ -3,7 +3,7 @@
 use super::seeds::Cell;
 use super::{Edge, LevelSet, SurfaceGrid, TraceError};
 use crate::bvh::morton_code;
-use crate::data::{Monitor, sort_keyed};
+use crate::data::{Monitor, ones, sort_keyed};
 use crate::math::{Aabb, Vec3};
 use rustc_hash::FxHashMap;
 
@@ -46,14 +46,6 @@ pub(super) struct Bricks {
 /// The bricks that the corners of a brick's cells lie in: itself, and those after it along the axes whose bits are set.
 pub(super) type Around = [u32; 8];
 const NOWHERE: u32 = u32::MAX;
-
-pub(super) fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lowest = (mask != 0).then(|| mask.trailing_zeros() as usize);
-        mask &= mask.wrapping_sub(1);
-        lowest
-    })
-}
 
 /// Where a corner of a cell lies: which of the bricks around, and the bit of the node there.
 pub(super) fn corner_of(cell: usize, corner: usize) -> (usize, usize) {
@@ -180,7 +172,7 @@ impl Bricks {
         if whole {
             wanted = around.map(|place| if place == NOWHERE { 0 } else { u64::MAX });
         } else {
-            for cell in bits(self.bricks[around[0] as usize].pending) {
+            for cell in ones(self.bricks[around[0] as usize].pending) {
                 (0..8).map(|c| corner_of(cell, c)).for_each(|(brick, node)| wanted[brick] |= 1 << node);
             }
         }
@@ -212,7 +204,7 @@ impl Bricks {
         let brick = &mut self.bricks[place];
         let (cells, first) = (brick.pending, brick.first);
         (brick.pending, brick.visited) = (0, brick.visited | cells);
-        for cell in bits(cells) {
+        for cell in ones(cells) {
             let Some(case) = self.case(around, cell).filter(|case| ![0, u8::MAX].contains(case)) else {
                 continue;
             };

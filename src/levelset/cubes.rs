@@ -1,10 +1,10 @@
 //! Marching cubes by continuation: a closed, manifold, outward-oriented surface of a level set.
-use super::bricks::{Around, Bricks, LIMIT, bits, corner_of};
+use super::bricks::{Around, Bricks, LIMIT, corner_of};
 use super::cube_cases::{EDGES, TRIANGLES};
 use super::seeds::Cell;
 use super::{Blur, CLEARANCE};
-use crate::data::{Cancelled, Monitor, OutOfMemory, SurfaceMesh};
-use crate::math::Vec3;
+use crate::data::{Cancelled, Lattice, Monitor, OutOfMemory, SurfaceMesh, ones};
+use crate::math::{Aabb, Vec3};
 
 /// Cubic cells in space: node (i, j, k) lies at `origin + spacing * (i, j, k)`, its cell is on the positive side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +14,11 @@ pub struct SurfaceGrid {
 }
 
 impl SurfaceGrid {
+    /// Nodes in the middles of the cells that cover bounds which are not empty, as those of [`Lattice::with_spacing`].
+    pub fn over(bounds: Aabb, spacing: f64) -> SurfaceGrid {
+        SurfaceGrid { origin: Lattice::cells_over(bounds, spacing).0, spacing }
+    }
+
     pub(super) fn position(&self, [x, y, z]: Cell) -> Vec3 {
         self.origin + self.spacing * Vec3::new(f64::from(x), f64::from(y), f64::from(z))
     }
@@ -113,7 +118,7 @@ impl Vertices {
         let mut crossed = vec![([0; 3], 0); bricks.bricks.len()];
         for (place, brick) in bricks.bricks.iter().enumerate().filter(|(_, brick)| brick.active != 0) {
             let around = bricks.around(place as u32);
-            for cell in bits(brick.active) {
+            for cell in ones(brick.active) {
                 let case = bricks.case(&around, cell).unwrap_or(0);
                 for edge in (0..EDGES.len()).filter(|edge| is_crossed(case, *edge)) {
                     let (owner, node) = lower_end(&around, cell, edge);
@@ -140,7 +145,7 @@ impl Vertices {
         let mut edges = Vec::new();
         for (number, &place) in self.order.iter().enumerate() {
             for axis in 0..3 {
-                let nodes = bits(self.crossed[place as usize].0[axis]);
+                let nodes = ones(self.crossed[place as usize].0[axis]);
                 edges.extend(nodes.map(|node| self.bricks.edge(grid, place, node, axis)));
             }
             if edges.len() >= EDGES_AT_ONCE || number + 1 == self.order.len() {
@@ -163,7 +168,7 @@ impl Vertices {
         for &place in &self.order {
             let active = self.bricks.bricks[place as usize].active;
             let around = if active == 0 { continue } else { self.bricks.around(place) };
-            for cell in bits(active) {
+            for cell in ones(active) {
                 let case = self.bricks.case(&around, cell).unwrap_or(0);
                 let number = |edge: u8| self.number_of(&around, cell, usize::from(edge));
                 triangles.extend(TRIANGLES[usize::from(case)].iter().map(|t| t.map(number)));

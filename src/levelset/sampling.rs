@@ -1,7 +1,7 @@
 //! Values for the nodes of bricks.
-use super::bricks::{Bricks, NODES, bits, node_of};
+use super::bricks::{Bricks, NODES, node_of};
 use super::{Blur, LevelSet, SurfaceGrid, TraceError};
-use crate::data::{Monitor, map_items};
+use crate::data::{Monitor, map_items, ones};
 use crate::math::Vec3;
 
 /// Bricks whose nodes are asked for together: their places and values take 32 MB.
@@ -24,7 +24,7 @@ impl Bricks {
             let mut points = Vec::new();
             for &place in some {
                 let brick = &self.bricks[place as usize];
-                points.extend(bits(brick.wanted).map(|bit| grid.position(node_of(brick.first, bit))));
+                points.extend(ones(brick.wanted).map(|bit| grid.position(node_of(brick.first, bit))));
             }
             let mut values = level_set.values(&points, monitor)?.into_iter();
             some.iter().for_each(|place| self.learn(*place, &mut values));
@@ -35,7 +35,7 @@ impl Bricks {
     /// Takes the values of the wanted nodes of a brick.
     fn learn(&mut self, place: u32, values: &mut dyn Iterator<Item = f32>) {
         let brick = &mut self.bricks[place as usize];
-        for (bit, value) in bits(brick.wanted).zip(values) {
+        for (bit, value) in ones(brick.wanted).zip(values) {
             brick.inside |= u64::from(value.is_sign_positive()) << bit;
             brick.void |= u64::from(value.is_nan()) << bit;
             self.values[place as usize * NODES + bit] = value;

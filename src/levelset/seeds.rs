@@ -43,7 +43,7 @@ impl Strewn {
     fn points(&self, rows: [usize; 2], limits: &Aabb, found: &mut dyn FnMut(Vec3)) {
         let [first, last] = rows.map(|row| self.ends(row));
         let bounds = Aabb::around([first, last].concat());
-        if !(bounds.min.cmple(limits.max).all() && limits.min.cmple(bounds.max).all()) {
+        if !bounds.overlaps(limits) {
             return;
         }
         if rows[0] < rows[1] {

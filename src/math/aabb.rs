@@ -60,6 +60,12 @@ impl Aabb {
         if center.length() > FAR * self.diagonal() { center } else { Vec3::ZERO }
     }
 
+    /// Whether two boxes have a point in common.
+    #[inline]
+    pub fn overlaps(&self, other: &Aabb) -> bool {
+        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
     #[inline]
     pub fn contains(&self, p: Vec3) -> bool {
         self.min.cmple(p).all() && p.cmple(self.max).all()

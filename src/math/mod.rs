@@ -4,6 +4,7 @@ mod chebyshev;
 mod closest;
 mod plane;
 mod predicates;
+mod random;
 mod ray;
 mod registers;
 mod triangle;
@@ -18,7 +19,8 @@ pub use predicates::{
     Sign, covers, meet, normal_signs, orient, orient_yz, perturbed_side_of_plane, side_of_edge,
     side_of_plane, tie_break, touches,
 };
+pub(crate) use random::{Random, fraction, hashed, mixed};
 pub use ray::Ray;
 pub use registers::{Floats, Plain, Registers, Work, in_widest_registers};
-pub use triangle::{area_vector, barycentre, distance_to_triangle, solid_angle};
+pub use triangle::{area_vector, barycentre, distance_to_triangle, signed_volume, solid_angle};
 pub use triangles_meet::triangles_meet;

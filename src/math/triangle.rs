@@ -7,6 +7,14 @@ pub fn area_vector([a, b, c]: [Vec3; 3]) -> Vec3 {
     0.5 * (b - a).cross(c - a)
 }
 
+/// The volume between triangle `abc` and `apex`, negative where the normal points to the side of `apex`: over all triangles of a
+/// closed surface, the volume within, for any apex. It is subtracted first: stable far from the origin.
+#[inline]
+pub fn signed_volume(corners: [Vec3; 3], apex: Vec3) -> f64 {
+    let [a, b, c] = corners.map(|p| p - apex);
+    a.dot(b.cross(c)) / 6.0
+}
+
 pub fn barycentre([a, b, c]: [Vec3; 3]) -> Vec3 {
     (a + b + c) / 3.0
 }

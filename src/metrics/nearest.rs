@@ -1,38 +1,29 @@
-use crate::bvh::{Bvh, Nearest};
+use crate::bvh::{Nearest, PointTree};
 use crate::data::map_tasks;
-use crate::math::{Aabb, Vec3};
+use crate::math::Vec3;
 
-/// Most points in a leaf of the tree.
-const LEAF_SIZE: usize = 8;
 /// Queries that share their scratch space: some milliseconds of work.
 const QUERIES_PER_TASK: usize = 1024;
 
-/// Points to look for the nearest of; built once, asked many times.
-pub struct NearestPoints {
-    bvh: Bvh,
-    /// In the order of the tree.
-    points: Vec<Vec3>,
-}
+/// Points to look for the nearest of many at once.
+pub struct NearestPoints(PointTree);
 
 impl NearestPoints {
     pub fn new(points: &[Vec3]) -> NearestPoints {
-        let boxes: Vec<Aabb> = points.iter().map(|p| Aabb { min: *p, max: *p }).collect();
-        let bvh = Bvh::build(&boxes, LEAF_SIZE);
-        let points = bvh.items().iter().map(|&i| points[i as usize]).collect();
-        NearestPoints { bvh, points }
+        NearestPoints(PointTree::new(points))
     }
 
     /// For each query the number of the nearest point and the distance to it, in parallel; of equally near points the first.
     /// Nothing at all if there are no points.
     pub fn of(&self, queries: &[Vec3]) -> Vec<(usize, f64)> {
-        if self.points.is_empty() {
+        if self.0.is_empty() {
             return vec![];
         }
         let task = |task: usize| {
             let mut nearest = Nearest::default();
             let first = task * QUERIES_PER_TASK;
             let some = &queries[first..queries.len().min(first + QUERIES_PER_TASK)];
-            let found = some.iter().filter_map(|q| nearest.nearest_to(&self.bvh, &self.points, *q));
+            let found = some.iter().filter_map(|q| nearest.nearest_to(&self.0, *q));
             found.map(|(squared, point)| (point as usize, squared.sqrt())).collect::<Vec<_>>()
         };
         map_tasks(queries.len().div_ceil(QUERIES_PER_TASK), task).concat()

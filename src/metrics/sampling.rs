@@ -1,6 +1,6 @@
 use super::MetricError;
 use crate::data::{TriangleSoup, map_items};
-use crate::math::{Vec3, area_vector};
+use crate::math::{Vec3, area_vector, hashed};
 
 /// Points spread evenly over a surface, with its unit normals there.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,30 +26,19 @@ pub fn sample_surface(soup: &TriangleSoup, count: usize, seed: u64) -> Result<Su
     if !(total > 0.0 && total < f64::INFINITY) {
         return Err(MetricError::NoArea { triangles: soup.len() });
     }
+    let random = |k: usize, dimension: u64| hashed([seed, k as u64, dimension]);
     let sample = |k: usize| {
-        let at = total * ((k as f64 + random(seed, k, 0)) / count as f64);
+        let at = total * ((k as f64 + random(k, 0)) / count as f64);
         // Rounding may lead past the last triangle that has an area.
         let t = ends.partition_point(|end| *end <= at).min(ends.partition_point(|end| *end < total));
         let [a, b, c] = soup.corners(t);
         // The square root spreads points evenly over a triangle.
-        let (across, along) = (random(seed, k, 1).sqrt(), random(seed, k, 2));
+        let (across, along) = (random(k, 1).sqrt(), random(k, 2));
         let point = a + across * ((b - a) + along * (c - b));
         (point, area_vector([a, b, c]).normalize_or_zero())
     };
     let (points, normals) = map_items(count, sample).into_iter().unzip();
     Ok(SurfaceSamples { points, normals })
-}
-
-/// A number in [0, 1) that depends on all arguments as if drawn at random (the mixer of SplitMix64, Steele et al. 2014).
-fn random(seed: u64, sample: usize, dimension: u64) -> f64 {
-    let mix = |x: u64| {
-        let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
-    };
-    let bits = mix(mix(mix(seed) ^ sample as u64) ^ dimension);
-    (bits >> 11) as f64 / (1u64 << 53) as f64
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ impl Default for ConsistencyConfig {
 /// A cluster acts as a whole beyond so many of its radii.
 const OPENING: f64 = 2.0;
 /// The longest half edge of the cloud's box where widths are measured.
-const HALF: f64 = 1.0 / 1.1;
+const HALF_EXTENT: f64 = 1.0 / 1.1;
 
 /// Area vectors, outward normals times areas in square millimetres, of points without normals, by winding number normal
 /// consistency (Lin et al. 2024).
@@ -65,7 +65,7 @@ pub(super) fn watched_area_vectors(
 ) -> Result<Vec<Vec3>, EstimateError> {
     let bounds = Aabb::around(points.iter().copied());
     let extent = bounds.size().max_element();
-    let scale = if extent > 0.0 { 2.0 * HALF / extent } else { 1.0 };
+    let scale = if extent > 0.0 { 2.0 * HALF_EXTENT / extent } else { 1.0 };
     let scaled: Vec<Vec3> = points.iter().map(|p| (*p - bounds.center()) * scale).collect();
     let widths = match config.widths {
         Some(widths) => widths,

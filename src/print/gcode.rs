@@ -126,7 +126,7 @@ fn warnings(paths: &Toolpaths, profile: &PrinterProfile, is_moved: bool) -> Vec<
         (WarningKind::NarrowLines, narrow),
     ];
     let mut warnings = paths.report.warnings();
-    warnings.extend(counts.into_iter().filter(|(_, n)| *n > 0).map(|(kind, n)| Warning::new(kind, n)));
+    warnings.extend(Warning::counted(counts));
     warnings
 }
 

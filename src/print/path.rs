@@ -151,7 +151,7 @@ impl Report {
             (WarningKind::DroppedFeatures, self.dropped.count),
             (WarningKind::Overhangs, self.overhangs.count),
         ];
-        counts.into_iter().filter(|(_, n)| *n > 0).map(|(kind, n)| Warning::new(kind, n)).collect()
+        Warning::counted(counts)
     }
 }
 

@@ -3,7 +3,7 @@ use super::path::Loop;
 use super::places::Places;
 use super::settings::Seam;
 use crate::data::sides;
-use crate::math::Vec2;
+use crate::math::{Vec2, fraction, mixed};
 use crate::polygon::nearest_on_segment;
 
 /// A turn sharper than this hides a seam: 30°.
@@ -116,12 +116,9 @@ fn start_along(ring: &mut Vec<Vec2>, share: f64) {
     }
 }
 
-/// A number in [0, 1) for a pair of numbers (Steele et al. 2014, the mixer of SplitMix64).
+/// A number in [0, 1) for a pair of numbers.
 fn hashed(layer: u64, number: u64) -> f64 {
-    let mut x = layer.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03);
-    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    fraction(mixed(layer.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ number.wrapping_mul(0xd1b5_4a32_d192_ed03)))
 }
 
 #[cfg(test)]

@@ -3,18 +3,18 @@
 //! The triangles, put right and closed by caps, are a soup whose winding number is an integer everywhere. Split along each other, its
 //! parts bound cells; the parts with w ≥ 1/2 on one side alone bound those inside: a closed surface, whatever the caps ran through.
 use super::agreement::agreement;
-use super::edges::{edges, net_edges, sides_by_edge};
+use super::bounding::bounding;
+use super::edges::{net_edges, sides_with_length};
 use super::faces::{Faces, NEW};
 use super::holes::close;
 use super::manifold::separate;
 use super::orientation::turn;
 use super::remesh::{median_edge, remesh};
-use super::sides::bounding;
 use super::stitch::stitch;
 use super::{Fallback, RemeshConfig, RepairError, RepairMethod, RepairReport, Repaired};
 use crate::arrangement::{Pairs, arrange};
-use crate::data::{Monitor, Parts, Sets, Shape, TriangleSoup};
-use crate::math::area_vector;
+use crate::data::{Monitor, Parts, Sets, Shape, TriangleSoup, by_edge};
+use crate::math::{area_vector, signed_volume};
 use crate::winding::WindingField;
 
 /// How a soup is repaired with its own triangles.
@@ -196,16 +196,17 @@ pub(super) fn resolved(
 
 /// Drops pieces, triangles joined by edges, that enclose next to nothing.
 pub(super) fn drop_sheets(faces: &mut Faces, report: &mut RepairReport) {
-    let sides = sides_by_edge(&faces.triangles);
+    let sides = sides_with_length(&faces.triangles);
     let mut sets = Sets::new(faces.triangles.len());
-    edges(&sides).for_each(|same| same.iter().for_each(|(_, side)| sets.join(same[0].1 / 3, side / 3)));
-    let of: Vec<u32> = (0..faces.triangles.len() as u32).map(|t| sets.find(t)).collect();
+    by_edge(&sides).for_each(|same| same.iter().for_each(|(_, side)| sets.join(same[0].1 / 3, side / 3)));
+    let of = sets.into_least();
     let mut sizes = vec![(0.0, 0.0); of.len()];
     for (t, piece) in of.iter().enumerate() {
         let anchor = faces.corners(*piece as usize)[0];
-        let [a, b, c] = faces.corners(t).map(|p| p - anchor);
+        let corners = faces.corners(t);
         let size = &mut sizes[*piece as usize];
-        *size = (size.0 + a.dot(b.cross(c)) / 6.0, size.1 + area_vector([a, b, c]).length());
+        let area = area_vector(corners.map(|p| p - anchor)).length();
+        *size = (size.0 + signed_volume(corners, anchor), size.1 + area);
     }
     let is_sheet = |piece: u32| {
         let (volume, area): (f64, f64) = sizes[piece as usize];
@@ -235,11 +236,7 @@ fn finished(
 /// The volume that a closed soup encloses.
 pub fn volume(soup: &TriangleSoup) -> f64 {
     let anchor = soup.bounds().center();
-    let tetrahedron = |t: usize| {
-        let [a, b, c] = soup.corners(t).map(|p| p - anchor);
-        a.dot(b.cross(c)) / 6.0
-    };
-    (0..soup.len()).map(tetrahedron).sum()
+    (0..soup.len()).map(|t| signed_volume(soup.corners(t), anchor)).sum()
 }
 
 fn lack_of(result: &Repaired, config: &ConserveConfig) -> Option<Fallback> {

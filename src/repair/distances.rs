@@ -4,7 +4,7 @@ use crate::bvh::Bvh;
 use crate::data::{Monitor, TriangleSoup, ascending, fill_in_blocks};
 use crate::math::{Aabb, Vec3, distance_to_triangle};
 use crate::metrics::sample_surface;
-use crate::winding::{Accuracy, FieldError, WindingField};
+use crate::winding::{Accuracy, FieldError, THRESHOLD, WindingField};
 
 /// Most triangles in a leaf of a tree.
 const LEAF_SIZE: usize = 4;
@@ -15,7 +15,6 @@ const ASIDE: f64 = 1e-3;
 /// Cells within which the nearest triangle is looked for.
 const REACH: f64 = 8.0;
 const TOLERANCE: f64 = 1e-4;
-const HALF: f64 = 0.5;
 
 /// Distances between `result`, made of cells of size `spacing`, and the soup that it was made of.
 pub fn distances(
@@ -56,7 +55,7 @@ fn bounding_places(
     };
     let inside = |points: Vec<Vec3>| field.evaluate(&points, Accuracy::Tolerance(TOLERANCE), monitor);
     let (front, back) = (inside(side(1.0))?, inside(side(-1.0))?);
-    let differs = front.iter().zip(&back).map(|(a, b)| (*a >= HALF) != (*b >= HALF));
+    let differs = front.iter().zip(&back).map(|(a, b)| (*a >= THRESHOLD) != (*b >= THRESHOLD));
     Ok(samples.points.iter().zip(differs).filter(|(_, differs)| *differs).map(|(p, _)| *p).collect())
 }
 

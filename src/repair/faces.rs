@@ -1,7 +1,7 @@
 //! The triangles under repair: vertices welded, each triangle with the one of the input that it is, or is a part of.
 use super::RepairReport;
-use super::edges::{edges, sides_by_edge};
-use crate::data::TriangleSoup;
+use super::edges::sides_with_length;
+use crate::data::{TriangleSoup, by_edge, sorted};
 use crate::math::{Vec3, area_vector, normal_signs};
 use crate::winding::weld;
 
@@ -64,7 +64,7 @@ impl Faces {
 
     /// Edges with one triangle alone.
     pub fn open_edges(&self) -> usize {
-        edges(&sides_by_edge(&self.triangles)).filter(|sides| sides.len() == 1).count()
+        by_edge(&sides_with_length(&self.triangles)).filter(|sides| sides.len() == 1).count()
     }
 
     /// Drops triangles without area.
@@ -107,11 +107,6 @@ impl Faces {
         }
         self.retain(|t| kept[t]);
     }
-}
-
-fn sorted(mut triangle: [u32; 3]) -> [u32; 3] {
-    triangle.sort_unstable();
-    triangle
 }
 
 /// Whether a triangle runs through its vertices in rising order.

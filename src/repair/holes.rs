@@ -1,10 +1,10 @@
 //! Openings closed: every cycle of boundary edges gets a cap.
 use super::RepairReport;
-use super::edges::{ends, net_edges, sides_by_edge};
+use super::edges::{net_edges, sides_with_length};
 use super::faces::{Faces, NEW};
 use super::refine::Cap;
 use super::span::span;
-use crate::data::{Monitor, map_items};
+use crate::data::{Monitor, edge_key, ends, map_items};
 use crate::math::{Vec3, area_vector};
 use crate::winding::{FieldError, WindingField, cycles};
 
@@ -24,7 +24,7 @@ pub fn close(
         return Ok(());
     }
     monitor.report(0.0, "closing holes")?;
-    let sides = sides_by_edge(&faces.triangles);
+    let sides = sides_with_length(&faces.triangles);
     let caps = map_items(rims.len(), |k| flat_cap(faces, &sides, &rims[k]));
     let total = rims.len();
     for (k, (rim, mut cap)) in rims.into_iter().zip(caps).enumerate() {
@@ -45,8 +45,8 @@ fn flat_cap(faces: &Faces, sides: &[(u64, u32)], rim: &[u32]) -> Cap {
     let normal = |k: usize| {
         // Edge k of the reversed rim.
         let [from, to] = [rim[(2 * count - 2 - k) % count], rim[count - 1 - k]];
-        let first = sides.partition_point(|side| side.0 < super::edges::key(from, to));
-        let along = sides[first..].iter().take_while(|side| side.0 == super::edges::key(from, to));
+        let first = sides.partition_point(|side| side.0 < edge_key(from, to));
+        let along = sides[first..].iter().take_while(|side| side.0 == edge_key(from, to));
         let own = along.map(|side| side.1).find(|side| ends(&faces.triangles, *side) == [from, to]);
         own.map_or(Vec3::ZERO, |side| area_vector(faces.corners(side as usize / 3)).normalize_or_zero())
     };

@@ -1,8 +1,8 @@
 //! A closed, oriented soup as a manifold: what touches itself along an edge or in a vertex gets edges and vertices of its own.
 use super::RepairReport;
-use super::edges::{edges, ends, opposite, sides_by_edge};
+use super::edges::sides_with_length;
 use super::faces::Faces;
-use crate::data::Sets;
+use crate::data::{Sets, by_edge, ends, next_side, opposite};
 use crate::math::Vec3;
 
 const NONE: u32 = u32::MAX;
@@ -24,10 +24,10 @@ pub fn separate(faces: &mut Faces, report: &mut RepairReport) -> bool {
 
 /// For each side the one that it is joined with.
 fn mates(faces: &Faces) -> (Vec<u32>, bool) {
-    let sides = sides_by_edge(&faces.triangles);
+    let sides = sides_with_length(&faces.triangles);
     let mut mates = vec![NONE; 3 * faces.triangles.len()];
     let mut is_closed = true;
-    for same in edges(&sides) {
+    for same in by_edge(&sides) {
         let lower = (same[0].0 >> 32) as u32;
         let is_up = |side: u32| ends(&faces.triangles, side)[0] == lower;
         let up = same.iter().filter(|(_, side)| is_up(*side)).count();
@@ -95,10 +95,9 @@ fn matched(around: &[(u32, bool)]) -> Vec<(u32, u32)> {
 /// Vertices of corners, one for each fan of joined triangles: the first of a vertex keeps its number, others are numbered from `count`;
 /// and which vertex each of those is in the place of.
 fn fans(triangles: &[[u32; 3]], mates: &[u32], count: usize) -> (Vec<u32>, Vec<u32>) {
-    let next = |side: u32| if side % 3 == 2 { side - 2 } else { side + 1 };
     let mut sets = Sets::new(mates.len());
     for (side, mate) in (0..).zip(mates).filter(|(_, mate)| **mate != NONE) {
-        sets.join(side, next(*mate));
+        sets.join(side, next_side(*mate));
     }
     let mut is_used = vec![false; count];
     let mut of_fans = vec![NONE; mates.len()];
@@ -123,10 +122,10 @@ fn fans(triangles: &[[u32; 3]], mates: &[u32], count: usize) -> (Vec<u32>, Vec<u
 /// Puts a vertex in the middle of one of several edges between the same two vertices; whether there were any.
 fn split_double_edges(faces: &mut Faces) -> bool {
     let (mates, _) = mates(faces);
-    let sides = sides_by_edge(&faces.triangles);
+    let sides = sides_with_length(&faces.triangles);
     let mut is_touched = vec![false; faces.triangles.len()];
     let mut is_split = false;
-    for same in edges(&sides).filter(|sides| sides.len() > 2) {
+    for same in by_edge(&sides).filter(|sides| sides.len() > 2) {
         let one = same.iter().map(|side| side.1).find(|side| {
             let mate = mates[*side as usize];
             mate != NONE && !is_touched[*side as usize / 3] && !is_touched[mate as usize / 3]

@@ -4,6 +4,7 @@
 //! [`conserve`] keeps the triangles of a soup: it drops what bounds nothing, turns over, stitches, closes openings with caps that follow
 //! w = 1/2, splits what intersects and keeps the parts that bound the inside.
 mod agreement;
+mod bounding;
 mod conserve;
 mod distances;
 mod edges;
@@ -14,7 +15,6 @@ mod orientation;
 mod refine;
 mod remesh;
 mod report;
-mod sides;
 mod span;
 mod stitch;
 

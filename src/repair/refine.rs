@@ -1,8 +1,8 @@
 //! A cap with triangles as large as those around it, moved to the level set (refinement of Liepa 2003, *Filling Holes in Meshes*).
-use super::edges::{edges, ends, opposite, sides_by_edge};
-use crate::data::Monitor;
+use super::edges::sides_with_length;
+use crate::data::{Monitor, by_edge, edge_key, ends, opposite};
 use crate::math::{Vec3, area_vector, barycentre};
-use crate::winding::{Accuracy, FieldError, WindingField};
+use crate::winding::{Accuracy, FieldError, THRESHOLD, WindingField};
 
 /// Rounds in which triangles are divided, edges flipped.
 const ROUNDS: usize = 12;
@@ -14,7 +14,6 @@ const MOST: usize = 20_000;
 /// Times that vertices are moved to the middle of their neighbours, and to the level set after.
 const SMOOTHED: usize = 60;
 const MOVED: usize = 12;
-const HALF: f64 = 0.5;
 /// How exactly w is known where vertices are moved.
 const TOLERANCE: f64 = 1e-4;
 
@@ -65,12 +64,12 @@ impl Cap {
 
     /// Flips edges within to the diagonal opposite to the smaller angles; how many.
     fn flip(&mut self) -> usize {
-        let sides = sides_by_edge(&self.triangles);
-        let has_edge = |a: u32, b: u32| sides.binary_search_by_key(&super::edges::key(a, b), |s| s.0).is_ok();
+        let sides = sides_with_length(&self.triangles);
+        let has_edge = |a: u32, b: u32| sides.binary_search_by_key(&edge_key(a, b), |s| s.0).is_ok();
         let mut is_touched = vec![false; self.triangles.len()];
         let mut new_edges = std::collections::BTreeSet::new();
         let mut flipped = 0;
-        for pair in edges(&sides).filter(|sides| sides.len() == 2) {
+        for pair in by_edge(&sides).filter(|sides| sides.len() == 2) {
             let [one, other] = [pair[0].1, pair[1].1];
             let [t, u] = [one as usize / 3, other as usize / 3];
             if is_touched[t] || is_touched[u] {
@@ -78,7 +77,7 @@ impl Cap {
             }
             let [a, b] = ends(&self.triangles, one);
             let [c, d] = [one, other].map(|side| opposite(&self.triangles, side));
-            let new = super::edges::key(c, d);
+            let new = edge_key(c, d);
             if c == d || has_edge(c, d) || new_edges.contains(&new) || !self.is_better_flipped(a, b, c, d) {
                 continue;
             }
@@ -130,7 +129,7 @@ impl Cap {
             let slopes = field.gradients(&places, accuracy, monitor)?;
             for k in 0..count {
                 let steep = slopes[k].length_squared();
-                let step = (HALF - values[k]) / steep * slopes[k];
+                let step = (THRESHOLD - values[k]) / steep * slopes[k];
                 let step = if step.is_finite() { step.clamp_length_max(0.5 * reach[k]) } else { Vec3::ZERO };
                 self.points[self.rim + k] = places[k] + step;
             }
@@ -138,7 +137,7 @@ impl Cap {
         let places = self.points[self.rim..].to_vec();
         let values = field.evaluate(&places, accuracy, monitor)?;
         for k in 0..count {
-            if (values[k] - HALF).abs() > 0.01 || places[k].distance(smooth[k]) > 8.0 * reach[k] {
+            if (values[k] - THRESHOLD).abs() > 0.01 || places[k].distance(smooth[k]) > 8.0 * reach[k] {
                 self.points[self.rim + k] = smooth[k];
             }
         }

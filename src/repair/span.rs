@@ -1,7 +1,7 @@
 //! Triangles that span a closed polygon of space: of all triangulations without new vertices that with the least bend and, of those,
 //! the least area (Barequet & Sharir 1995, *Filling Gaps in the Boundary of a Polyhedron*; weights of Liepa 2003, *Filling Holes in
 //! Meshes*), by dynamic programming in time cubic in the vertices. Long polygons are cut in two first, where they are narrow.
-use crate::math::Vec3;
+use crate::math::{Vec3, area_vector};
 
 /// Vertices of a polygon that is spanned at once.
 const MOST: usize = 160;
@@ -128,7 +128,7 @@ impl Table {
     }
 
     fn normal(&self, [a, b, c]: [usize; 3]) -> Vec3 {
-        crate::math::area_vector([self.points[a], self.points[b], self.points[c]])
+        area_vector([self.points[a], self.points[b], self.points[c]])
     }
 
     fn collect(&self, first: usize, last: usize, put: &mut dyn FnMut([usize; 3])) {
@@ -155,7 +155,6 @@ fn is_better(one: (f64, f64), other: (f64, f64)) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::area_vector;
 
     fn area(points: &[Vec3], triangles: &[[u32; 3]]) -> f64 {
         triangles.iter().map(|t| area_vector(t.map(|v| points[v as usize])).length()).sum()

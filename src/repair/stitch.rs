@@ -1,9 +1,9 @@
 //! Open edges that lie next to each other are joined: vertices welded, edges split where a vertex of another lies on them.
 use super::RepairReport;
-use super::edges::{edges, ends, key, opposite, sides_by_edge};
+use super::edges::sides_with_length;
 use super::faces::Faces;
 use crate::bvh::Bvh;
-use crate::data::{Cancelled, Monitor, Sets};
+use crate::data::{Cancelled, Monitor, Sets, by_edge, edge_key, ends, opposite};
 use crate::math::{Aabb, Vec3};
 
 /// Most items in a leaf of a tree.
@@ -34,8 +34,8 @@ pub fn stitch(
 
 /// Sides that run along an edge with no other.
 fn open_sides(faces: &Faces) -> Vec<u32> {
-    let sides = sides_by_edge(&faces.triangles);
-    edges(&sides).filter(|sides| sides.len() == 1).map(|sides| sides[0].1).collect()
+    let sides = sides_with_length(&faces.triangles);
+    by_edge(&sides).filter(|sides| sides.len() == 1).map(|sides| sides[0].1).collect()
 }
 
 fn vertices_of(faces: &Faces, sides: &[u32]) -> Vec<u32> {
@@ -73,8 +73,8 @@ fn weld_open(faces: &mut Faces, tolerance: f64) -> usize {
         return 0;
     }
     pairs.sort_unstable_by(|one, other| one.partial_cmp(other).expect("distances are numbers"));
-    let sides = sides_by_edge(&faces.triangles);
-    let is_edge = |a: u32, b: u32| sides.binary_search_by_key(&key(a, b), |side| side.0).is_ok();
+    let sides = sides_with_length(&faces.triangles);
+    let is_edge = |a: u32, b: u32| sides.binary_search_by_key(&edge_key(a, b), |side| side.0).is_ok();
     let mut sets = Sets::new(faces.positions.len());
     let mut members: std::collections::BTreeMap<u32, Vec<u32>> = Default::default();
     let mut welded = 0;
@@ -131,17 +131,19 @@ fn on_segment(faces: &Faces, side: u32, vertices: &[u32], bvh: &Bvh, tolerance: 
         return Vec::new();
     }
     let segment = Aabb::around([from, to]).padded(tolerance);
-    let touches = |bounds: &Aabb| bounds.min.cmple(segment.max).all() && segment.min.cmple(bounds.max).all();
     let direction = (to - from) / length;
-    bvh.for_each(touches, |k| {
-        let v = vertices[k];
-        let offset = faces.positions[v as usize] - from;
-        let along = offset.dot(direction);
-        let is_between = along > tolerance && along < length - tolerance;
-        if ![a, b, top].contains(&v) && is_between && (offset - along * direction).length() <= tolerance {
-            found.push((along, v));
-        }
-    });
+    bvh.for_each(
+        |bounds| bounds.overlaps(&segment),
+        |k| {
+            let v = vertices[k];
+            let offset = faces.positions[v as usize] - from;
+            let along = offset.dot(direction);
+            let is_between = along > tolerance && along < length - tolerance;
+            if ![a, b, top].contains(&v) && is_between && (offset - along * direction).length() <= tolerance {
+                found.push((along, v));
+            }
+        },
+    );
     found.sort_unstable_by(|one, other| one.partial_cmp(other).expect("places are numbers"));
     found.into_iter().map(|(_, v)| v).collect()
 }

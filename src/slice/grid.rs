@@ -60,10 +60,9 @@ impl<'a> GridTracer<'a> {
     /// The polygons of a region at a height.
     pub fn polygons(&self, z: f64, region: Region) -> Vec<Polygon> {
         let mut scratch = Scratch::default();
-        let (Region::AtLeast(level) | Region::Below(level)) = region;
-        let is_upward = matches!(region, Region::AtLeast(_));
+        let level = region.level();
         let mut inside = |p: Vec2, at: At| {
-            is_upward
+            region.is_upward()
                 == match at {
                     At::Node => self.field.is_above(p.extend(z), level, &mut scratch),
                     At::Edge => self.field.is_nearly_above(p.extend(z), level, &mut scratch),

@@ -24,6 +24,19 @@ pub(super) enum Region {
     Below(f64),
 }
 
+impl Region {
+    /// Where it begins or ends.
+    pub fn level(self) -> f64 {
+        let (Region::AtLeast(level) | Region::Below(level)) = self;
+        level
+    }
+
+    /// Whether it holds what is at its level or above it, rather than what is below.
+    pub fn is_upward(self) -> bool {
+        matches!(self, Region::AtLeast(_))
+    }
+}
+
 /// Share of the size, and of a hundredth of the coordinates.
 const TINY: f64 = 1e-10;
 
@@ -42,10 +55,7 @@ impl<'a> Plane<'a> {
 
     pub fn is_inside(&self, p: Vec2) -> bool {
         let mut scratch = self.scratch.borrow_mut();
-        let level = match self.region {
-            Region::AtLeast(level) | Region::Below(level) => level,
-        };
-        self.field.exceeds(p.extend(self.z), level, &mut scratch) == self.is_upward()
+        self.field.exceeds(p.extend(self.z), self.region.level(), &mut scratch) == self.region.is_upward()
     }
 
     /// How far the field is on the inside's side of the threshold at four points, which cost little more than one.
@@ -60,19 +70,13 @@ impl<'a> Plane<'a> {
     }
 
     pub fn all_inside(&self, points: &[Vec2]) -> Vec<bool> {
-        let level = match self.region {
-            Region::AtLeast(level) | Region::Below(level) => level,
-        };
+        let level = self.region.level();
         let points: Vec<_> = points.iter().map(|p| p.extend(self.z)).collect();
         let singly = |_| {
             let mut scratch = self.scratch.borrow_mut();
             points.iter().map(|q| self.field.exceeds(*q, level, &mut scratch)).collect()
         };
         let above: Vec<bool> = self.field.classify(&points, level, &Silent).unwrap_or_else(singly);
-        above.into_iter().map(|above| above == self.is_upward()).collect()
-    }
-
-    fn is_upward(&self) -> bool {
-        matches!(self.region, Region::AtLeast(_))
+        above.into_iter().map(|above| above == self.region.is_upward()).collect()
     }
 }

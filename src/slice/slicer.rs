@@ -2,11 +2,10 @@ use super::grid::GridTracer;
 use super::plane::{Plane, Region, tiny};
 use super::section::{BLOCK, Sections, Segment};
 use super::{SliceConfig, SliceMode, Span, chains, disjoint, open};
-use crate::data::{LatticeError, Layer, Polygon, Shape, ascending, map_tasks};
+use crate::data::{LatticeError, Layer, Lazy, Polygon, Shape, ascending, map_tasks};
 use crate::math::Aabb;
 use crate::polygon::{Boolean, Fill, combined, enclosed, simplify, straightened};
-use crate::winding::WindingField;
-use std::sync::OnceLock;
+use crate::winding::{THRESHOLD, WindingField};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Regions with more overlaps than this are not told apart in even-odd contours of open shapes.
@@ -31,7 +30,7 @@ enum Way<'a> {
         sections: Sections<'a>,
         order: Vec<u32>,
         openings: Vec<Aabb>,
-        grid: OnceLock<GridTracer<'a>>,
+        grid: Lazy<GridTracer<'a>>,
     },
     Grid(GridTracer<'a>),
 }
@@ -55,7 +54,7 @@ impl<'a> Slicer<'a> {
                     Way::Closed(sections, order)
                 } else {
                     field.prepare_single_points();
-                    Way::Open { sections, order, openings: field.openings(), grid: OnceLock::new() }
+                    Way::Open { sections, order, openings: field.openings(), grid: Lazy::new() }
                 }
             }
             _ => {
@@ -110,16 +109,10 @@ impl<'a> Slicer<'a> {
         }
     }
 
-    fn by_grid(&self, grid: &OnceLock<GridTracer<'a>>, z: f64, region: Region) -> Vec<Polygon> {
+    fn by_grid(&self, grid: &Lazy<GridTracer<'a>>, z: f64, region: Region) -> Vec<Polygon> {
         self.approximated.fetch_add(1, Relaxed);
-        if grid.get().is_none() {
-            // Built outside of the cell that holds it: a thread that waited could be the one whose help is needed.
-            match GridTracer::new(self.field, &self.config) {
-                Ok(tracer) => drop(grid.set(tracer)),
-                Err(_) => return Vec::new(),
-            }
-        }
-        grid.get().map(|grid| grid.polygons(z, region)).unwrap_or_default()
+        let grid = grid.get_or_try_build(|| GridTracer::new(self.field, &self.config));
+        grid.map(|grid| grid.polygons(z, region)).unwrap_or_default()
     }
 
     fn of_closed(&self, segments: &[Segment]) -> Vec<Polygon> {
@@ -132,7 +125,7 @@ impl<'a> Slicer<'a> {
 
     /// What a mode makes of the regions of a field.
     fn by_mode(&self, of_region: impl Fn(Region) -> Vec<Polygon>) -> Vec<Polygon> {
-        let mut all = of_region(Region::AtLeast(0.5));
+        let mut all = of_region(Region::AtLeast(THRESHOLD));
         if self.config.mode == SliceMode::EvenOdd {
             let upward = (1..MOST_OVERLAPS).map(|k| Region::AtLeast(k as f64 + 0.5));
             let downward = (0..MOST_OVERLAPS).map(|k| Region::Below(-0.5 - k as f64));

@@ -2,7 +2,7 @@
 use super::VoxelError;
 use crate::data::{
     BRICK_SIDE, BrickBits, Directory, INSIDE, Lattice, Monitor, OUTSIDE, OutOfMemory, Shape, VoxelBricks,
-    bit_of, mask_of_brick,
+    bit_of, mask_of_brick, ones,
 };
 use crate::levelset::for_each_cell_of_shape;
 use crate::math::{Aabb, Vec3};
@@ -122,11 +122,9 @@ impl States<'_> {
                     let Known { known, mut inside, .. } = self.bricks[number as usize];
                     let unknown = mask_of_brick(self.lattice, brick);
                     for z in 0..BRICK_SIDE {
-                        let mut unknown = unknown[z] & !known[z];
-                        while unknown != 0 {
-                            let place = unknown.trailing_zeros() as usize;
-                            unknown &= unknown - 1;
-                            let sample = [corner[0] + place % 8, corner[1] + place / 8, corner[2] + z];
+                        for place in ones(unknown[z] & !known[z]) {
+                            let within = [place % BRICK_SIDE, place / BRICK_SIDE, z];
+                            let sample = [0, 1, 2].map(|axis| corner[axis] + within[axis]);
                             let state = before(sample).map_or(first, |s| {
                                 let is_here = (0..3).all(|axis| s[axis] >= corner[axis]);
                                 if is_here { bit_of(&inside, s) } else { done.get(s) }

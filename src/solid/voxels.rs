@@ -2,7 +2,7 @@ use super::continuation::along_the_level_set;
 use crate::data::{
     Cancelled, Lattice, LatticeError, Monitor, OutOfMemory, Shape, TriangleSoup, VoxelBricks, Voxels,
 };
-use crate::winding::{FieldConfig, FieldError, Order, Stabbing, WindingField, stab_lattice};
+use crate::winding::{FieldConfig, FieldError, Order, Stabbing, THRESHOLD, WindingField, stab_lattice};
 
 /// How it is found out what is inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,7 +40,7 @@ pub struct VoxelConfig {
 
 impl Default for VoxelConfig {
     fn default() -> Self {
-        VoxelConfig { threshold: 0.5, method: VoxelMethod::Lattice }
+        VoxelConfig { threshold: THRESHOLD, method: VoxelMethod::Lattice }
     }
 }
 

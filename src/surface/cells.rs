@@ -3,7 +3,7 @@ use super::{SurfaceConfig, SurfaceError};
 use crate::data::{Lattice, LatticeError, Monitor, OrientedCloud, Shape};
 use crate::estimate::{EstimateError, roughness};
 use crate::levelset::{Blur, SurfaceGrid, places_of_shape};
-use crate::math::{Vec3, area_vector};
+use crate::math::area_vector;
 use crate::winding::WindingField;
 
 /// Edge of a cell of a cloud, in distances between its points. On 35,000 and 100,000 points of four models, 1 leaves the surface up to
@@ -51,10 +51,7 @@ pub fn grid(
         return Err(SurfaceError::SmallCells { spacing, deviation });
     }
     let blur = (deviation > 0.0).then(|| Blur::new(deviation / spacing));
-    // The slack keeps a side of exactly n cells from getting n + 1 by rounding.
-    let cells = (bounds.size() / spacing - Vec3::splat(1e-9)).ceil().max(Vec3::ONE);
-    let origin = bounds.center() - 0.5 * spacing * (cells - Vec3::ONE);
-    Ok((SurfaceGrid { origin, spacing }, blur))
+    Ok((SurfaceGrid::over(bounds, spacing), blur))
 }
 
 /// Whether the size of cells is left to the shape.

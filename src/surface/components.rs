@@ -1,14 +1,11 @@
 //! Pieces of a mesh: which triangles hang together, and meshes of some of them.
-use crate::data::{Sets, SurfaceMesh};
+use crate::data::{Sets, SurfaceMesh, next_side, sides_by_edge};
 use crate::math::{Vec3, area_vector};
 
 /// Leaves out the pieces, triangles that share vertices, with less area than `least(the largest one's)`.
 pub fn keep_large(mesh: &mut SurfaceMesh, least: impl Fn(f64) -> f64) {
     let mut sets = Sets::new(mesh.positions.len());
-    for [a, b, c] in &mesh.triangles {
-        sets.join(*a, *b);
-        sets.join(*a, *c);
-    }
+    mesh.triangles.iter().for_each(|corners| sets.join_all(*corners));
     let mut areas = vec![0.0; mesh.positions.len()];
     for t in &mesh.triangles {
         let area = area_vector(t.map(|v| mesh.positions[v as usize])).length();
@@ -39,18 +36,14 @@ pub fn keep_triangles(mesh: &mut SurfaceMesh, mut wanted: impl FnMut(&[u32; 3]) 
 /// most is then manifold.
 pub fn split_fans(mesh: &mut SurfaceMesh) {
     let corner = |k: u32| mesh.triangles[k as usize / 3][k as usize % 3];
-    let next = |k: u32| if k % 3 == 2 { k - 2 } else { k + 1 };
     let corners = 3 * mesh.triangles.len() as u32;
     let mut sets = Sets::new(corners as usize);
-    let ends = |k: u32| (u64::from(corner(k)), u64::from(corner(next(k))));
-    let mut edges: Vec<(u64, u32)> =
-        (0..corners).map(|k| (ends(k).0.min(ends(k).1) << 32 | ends(k).0.max(ends(k).1), k)).collect();
-    crate::data::sort_keyed(&mut edges);
-    for pair in edges.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+    let sides = sides_by_edge(&mesh.triangles, |_, _| true);
+    for pair in sides.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
         let [(_, one), (_, other)] = [pair[0], pair[1]];
         // The two run along their edge in opposite directions.
-        sets.join(one, next(other));
-        sets.join(next(one), other);
+        sets.join(one, next_side(other));
+        sets.join(next_side(one), other);
     }
     let mut of_fans = vec![u32::MAX; corners as usize];
     let (mut positions, mut normals): (Vec<Vec3>, Vec<Vec3>) = Default::default();

@@ -1,9 +1,8 @@
 use crate::data::{Monitor, Shape, ascending};
 use crate::math::{area_vector, barycentre};
 use crate::treecode::PointTargets;
-use crate::winding::{Accuracy, FieldError, WindingField};
+use crate::winding::{Accuracy, FieldError, THRESHOLD, WindingField};
 
-const HALF: f64 = 0.5;
 /// Tolerance of the winding numbers of which the level is the median.
 const TOLERANCE: f64 = 1e-2;
 
@@ -31,7 +30,7 @@ pub fn suggested_level(field: &WindingField, monitor: &dyn Monitor) -> Result<f6
             (values, (0..soup.len()).map(|t| area_vector(soup.corners(t)).length()).collect())
         }
     };
-    Ok(median(&values, &areas).map_or(HALF, |median| median.min(HALF)))
+    Ok(median(&values, &areas).map_or(THRESHOLD, |median| median.min(THRESHOLD)))
 }
 
 /// The value below which half of the weight lies.

@@ -3,7 +3,6 @@ mod cells;
 mod components;
 mod level;
 mod offset;
-mod points;
 mod samples;
 mod sharp;
 mod sides;
@@ -12,13 +11,13 @@ mod trim;
 pub use level::suggested_level;
 pub use offset::{Drain, HollowConfig, OffsetConfig, OffsetError, hollow, offset, two_sided_offset};
 
+use crate::bvh::PointTree;
 use crate::data::{Cancelled, LatticeError, Monitor, Parts, Shape, SurfaceMesh};
 use crate::levelset::{TraceError, cells_of_points, cells_of_shape, trace_surface};
 use crate::math::Vec3;
-use crate::winding::{FieldError, WindingField};
+use crate::winding::{FieldError, THRESHOLD, WindingField};
 use cells::{area, grid};
 use components::keep_large;
-use points::Points;
 use samples::Samples;
 use sharp::{Limits, OfCloud, OfSoup, sharpen, tree_of};
 use sides::Sides;
@@ -87,17 +86,8 @@ impl From<FieldError> for SurfaceError {
     fn from(error: FieldError) -> SurfaceError {
         match error {
             FieldError::Lattice(lattice) => lattice.into(),
-            error => trace_error(error).into(),
+            error => TraceError::from(error).into(),
         }
-    }
-}
-
-/// Why scattered points have no values.
-fn trace_error(error: FieldError) -> TraceError {
-    match error {
-        FieldError::Cancelled(cancelled) => cancelled.into(),
-        FieldError::OutOfMemory(out_of_memory) => out_of_memory.into(),
-        FieldError::Lattice(_) => unreachable!("no lattice was asked for"),
     }
 }
 
@@ -110,7 +100,6 @@ impl From<Cancelled> for SurfaceError {
 /// The parts of the progress that are told before cells are looked for, and when these are traced, if sharp edges follow.
 const PREPARED: f64 = 0.05;
 const TRACED: f64 = 0.6;
-const HALF: f64 = 0.5;
 /// A surface that is not trimmed gets no level nearer to 0 than that unless it is asked for: w falls off with the square of the
 /// distance, so that the level set of 0.1 of a flat square is a bubble as large as that, and those of smaller ones grow beyond bounds.
 const LEAST_LEVEL: f64 = 0.1;
@@ -138,7 +127,7 @@ pub fn extract(
     let (grid, blur) = grid(field, config, monitor)?;
     let level = match (config.level, field.shape()) {
         (Some(level), _) => level,
-        (None, Shape::Soup(_)) => HALF,
+        (None, Shape::Soup(_)) => THRESHOLD,
         (None, Shape::Cloud(_)) => match suggested_level(field, monitor)? {
             level if config.trim.is_none() && level.abs() < LEAST_LEVEL => LEAST_LEVEL,
             level => level,
@@ -170,7 +159,7 @@ pub fn extract(
             let mut mesh = trace_surface(&grid, &seeds, &samples, monitor)?;
             if let Some(limits) = limits {
                 monitor.begin(traced, 1.0);
-                let evidence = OfCloud { cloud, points: Points::new(cloud.points()), limits };
+                let evidence = OfCloud { cloud, points: PointTree::new(cloud.points()), limits };
                 sharpen(&mut mesh, &evidence, grid.spacing, limits, monitor)?;
             }
             if let Some(reach) = &reach {

@@ -27,7 +27,7 @@ pub struct Samples<'a> {
 impl Samples<'_> {
     fn at(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
         let found = self.field.evaluate_targets(&InOrder(points), points.len(), TOLERANCE, monitor);
-        let mut values = found.map_err(super::trace_error)?;
+        let mut values = found?;
         values.iter_mut().for_each(|w| *w -= self.level);
         Ok(values)
     }

@@ -16,7 +16,7 @@ impl LevelSet for Sides<'_> {
     }
 
     fn values(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f32>, TraceError> {
-        let inside = self.field.classify(points, self.level, monitor).map_err(super::trace_error)?;
+        let inside = self.field.classify(points, self.level, monitor)?;
         Ok(inside.into_iter().map(|inside| if inside { 1.0 } else { -1.0 }).collect())
     }
 

@@ -1,7 +1,6 @@
 //! Which places are near enough to a cloud's points to believe in the surface there.
 use super::components::{keep_triangles, split_fans};
-use super::points::Points;
-use crate::bvh::Nearest;
+use crate::bvh::{Nearest, PointTree};
 use crate::data::{Cancelled, Monitor, OrientedCloud, SurfaceMesh, fill_in_blocks};
 use crate::math::Vec3;
 
@@ -10,7 +9,7 @@ const AROUND: usize = 9;
 
 /// Balls around the points of a cloud.
 pub struct Reach {
-    points: Points,
+    points: PointTree,
     /// By the points' own numbers.
     radii: Vec<f64>,
 }
@@ -18,22 +17,22 @@ pub struct Reach {
 impl Reach {
     /// Balls of `trim` times the edge of the square that a point and those around have to themselves.
     pub fn new(cloud: &OrientedCloud, trim: f64, monitor: &dyn Monitor) -> Result<Reach, Cancelled> {
-        let points = Points::new(cloud.points());
+        let points = PointTree::new(cloud.points());
         let radius = |place: usize, nearest: &mut Nearest| {
-            let near = nearest.find(&points.bvh, &points.places, place, AROUND);
+            let near = nearest.find(&points, place, AROUND);
             let area: f64 = near.iter().map(|(_, point)| cloud.areas()[*point as usize]).sum();
             trim * (area / near.len() as f64).sqrt()
         };
-        let mut in_order = vec![0.0; points.places.len()];
+        let mut in_order = vec![0.0; cloud.len()];
         fill_in_blocks(&mut in_order, radius, "distances", monitor)?;
-        let mut radii = vec![0.0; points.places.len()];
-        points.bvh.items().iter().zip(in_order).for_each(|(point, radius)| radii[*point as usize] = radius);
+        let mut radii = vec![0.0; cloud.len()];
+        points.items().iter().zip(in_order).for_each(|(point, radius)| radii[*point as usize] = radius);
         Ok(Reach { points, radii })
     }
 
     /// Whether a place is in the ball of the point nearest to it, or no farther from it than `slack`.
     pub fn holds(&self, place: Vec3, slack: f64, nearest: &mut Nearest) -> bool {
-        let found = self.points.nearest_to(place, nearest);
+        let found = nearest.nearest_to(&self.points, place);
         found.is_some_and(|(squared, point)| squared.sqrt() <= self.radii[point as usize] + slack)
     }
 

@@ -1,5 +1,5 @@
 //! Where the texture of a soup is cut, whatever gave it.
-use crate::data::{Sets, TriangleSoup, sort_keyed};
+use crate::data::{Sets, TriangleSoup, by_edge, sides_by_edge};
 use crate::math::Vec2;
 use crate::winding::weld;
 use serde::Serialize;
@@ -24,7 +24,7 @@ pub fn seams(
     tolerance: f64,
     turn: Option<f64>,
 ) -> Seams {
-    let sides = sides_by_edge(vertices);
+    let sides = sides_by_edge(vertices, |_, _| true);
     let apart = |a: Vec2, b: Vec2| {
         let mut between = a - b;
         if let Some(turn) = turn {
@@ -34,7 +34,7 @@ pub fn seams(
     };
     let mut sets = Sets::new(vertices.len());
     let mut found = Seams::default();
-    for same in sides.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+    for same in by_edge(&sides).filter(|same| same.len() > 1) {
         for pair in same.windows(2) {
             let [one, other] = [pair[0].1, pair[1].1].map(|side| ends(side, uv, vertices));
             if apart(one[0], other[0]) || apart(one[1], other[1]) {
@@ -69,20 +69,6 @@ const SAME: f64 = 1e-3;
 /// Texture coordinates such that those of different charts are never the same.
 pub fn apart_by_chart(uv: &[[Vec2; 3]], charts: &[u32]) -> Vec<[Vec2; 3]> {
     uv.iter().zip(charts).map(|(uv, chart)| uv.map(|p| p + 2.0 * f64::from(*chart) * Vec2::X)).collect()
-}
-
-/// The sides of triangles, 3t + k from corner k of triangle t to the next, by their edges: the lower vertex in the upper half of a key,
-/// the higher in the lower.
-pub fn sides_by_edge(vertices: &[[u32; 3]]) -> Vec<(u64, u32)> {
-    let mut sides: Vec<(u64, u32)> = Vec::with_capacity(3 * vertices.len());
-    for (t, corners) in vertices.iter().enumerate() {
-        for k in 0..3 {
-            let (a, b) = (u64::from(corners[k]), u64::from(corners[(k + 1) % 3]));
-            sides.push((a.min(b) << 32 | a.max(b), (3 * t + k) as u32));
-        }
-    }
-    sort_keyed(&mut sides);
-    sides
 }
 
 /// What the corners at the ends of a side have, that of the lower vertex first.

@@ -1,9 +1,9 @@
 //! Field lines to be looked at: some of them, spread over the soup, as far as the proxy.
 use super::{SoupLines, Texture};
-use crate::bvh::{morton_code, sorted_codes};
+use crate::bvh::along_curve;
 use crate::charge::{FieldLines, first_hits};
-use crate::data::{TriangleSoup, map_items};
-use crate::math::{Aabb, area_vector};
+use crate::data::TriangleSoup;
+use crate::math::area_vector;
 
 impl Texture {
     /// The field lines as far as the proxy; those that meet none are whole, and straight ones where a line was replaced. With a
@@ -34,8 +34,7 @@ impl Texture {
 /// Starts at equal steps of area along a space-filling curve, in its order.
 fn chosen(soup: &TriangleSoup, lines: &SoupLines, count: Option<usize>) -> Vec<u32> {
     let starts = &lines.starts;
-    let bounds = Aabb::around(starts.points.iter().copied());
-    let order = sorted_codes(map_items(starts.points.len(), |s| morton_code(starts.points[s], &bounds))).1;
+    let order = along_curve(&starts.points);
     let Some(count) = count.filter(|count| *count < order.len()) else { return order };
     let mut areas = vec![0.0; order.len()];
     for (t, corners) in starts.corners.iter().enumerate() {

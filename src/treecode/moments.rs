@@ -3,7 +3,7 @@ use super::kernel::Quadrature;
 use crate::math::Vec3;
 
 /// Index pairs of a symmetric 3×3 tensor in storage order: xx, xy, xz, yy, yz, zz.
-const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 
 /// Moments of orders 0, 1 and 2 of a cluster about its area-weighted centre (Barill et al. 2018, eqs. 13 to 15).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,10 +1,10 @@
 //! Distances, offset surfaces and hollow shapes for JavaScript.
-use super::convert::{bytes_to, indices_to, numbers_to, points_from, singles_to, triple_to};
+use super::convert::{bytes_to, indices_to, numbers_to, points_from, singles_to};
 use super::failure::{Failure, object};
 use super::handle::Handle;
 use super::job::Job;
 use super::options::{from_js, lattice_of};
-use super::results::{counts_to, mesh_to};
+use super::results::{lattice_to, mesh_to};
 use crate::data::{Lattice, LatticeError};
 use crate::math::{Aabb, Vec3};
 use crate::solid::{DistanceConfig, DistanceError, DistanceSign, SignedClosest};
@@ -111,12 +111,8 @@ impl Handle {
         let lattice = options.lattice(self.bounds())?;
         let distance = self.signed_distance(job)?;
         let grid = distance.lattice(&lattice, &options.config(), job).map_err(Failure::from)?;
-        Ok(object([
-            ("counts", counts_to(&lattice.counts)),
-            ("origin", triple_to(lattice.origin)),
-            ("spacing", triple_to(lattice.spacing)),
-            ("values", singles_to(&grid.values)?.into()),
-        ]))
+        let [counts, origin, spacing] = lattice_to(&lattice);
+        Ok(object([counts, origin, spacing, ("values", singles_to(&grid.values)?.into())]))
     }
 
     /// The nearest point for each of the points xyzxyz…: `{ distances, points, faces, barycentric, features, gradients }`.

@@ -68,7 +68,7 @@ impl Handle {
             return Err(Failure::invalid(message).into());
         }
         let format = imported.format.name();
-        let mut handle = Handle { source, format, warnings: imported.warnings, field: None, distances: None };
+        let mut handle = Handle::of(source, format, imported.warnings);
         handle.orient_where_asked(options.orient, job)?;
         Ok(handle)
     }
@@ -85,8 +85,7 @@ impl Handle {
         if soup.is_empty() {
             return Err(Failure::new("EmptyInput", "there are no triangles: at least one is needed").into());
         }
-        let source = Source::Soup(Arc::new(soup));
-        Ok(Handle { source, format: "arrays", warnings, field: None, distances: None })
+        Ok(Handle::of(Source::Soup(Arc::new(soup)), "arrays", warnings))
     }
 
     /// A cloud of arrays: points and perhaps normals xyzxyz…, areas one for each.
@@ -114,7 +113,7 @@ impl Handle {
             return Err(Failure::new("EmptyInput", "none of the points is usable").into());
         }
         let source = Source::Cloud { given, oriented: None };
-        let mut handle = Handle { source, format: "arrays", warnings, field: None, distances: None };
+        let mut handle = Handle::of(source, "arrays", warnings);
         handle.orient_where_asked(options.orient, job)?;
         Ok(handle)
     }
@@ -261,13 +260,11 @@ impl Handle {
 impl Handle {
     /// A soup that the engine has made.
     pub(super) fn of_soup(soup: TriangleSoup, format: &'static str) -> Handle {
-        Handle {
-            source: Source::Soup(Arc::new(soup)),
-            format,
-            warnings: vec![],
-            field: None,
-            distances: None,
-        }
+        Handle::of(Source::Soup(Arc::new(soup)), format, vec![])
+    }
+
+    fn of(source: Source, format: &'static str, warnings: Vec<Warning>) -> Handle {
+        Handle { source, format, warnings, field: None, distances: None }
     }
 
     fn orient_where_asked(&mut self, orient: Option<options::Orient>, job: &Job) -> Result<(), Failure> {
@@ -334,13 +331,7 @@ impl Handle {
                 "the file holds the field of a {found}: a {wanted} is needed"
             )));
         }
-        Ok(Handle {
-            source,
-            format: SAVED,
-            warnings: vec![],
-            field: Some((field.config(), field)),
-            distances: None,
-        })
+        Ok(Handle { field: Some((field.config(), field)), ..Handle::of(source, SAVED, vec![]) })
     }
 
     /// How the evaluator of Barill et al. 2018 has this shape's field.

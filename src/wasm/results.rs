@@ -30,7 +30,7 @@ pub fn segments_to(segments: &[[Vec3; 2]]) -> Result<Object, Failure> {
     ]))
 }
 
-pub fn counts_to(counts: &[usize]) -> JsValue {
+fn counts_to(counts: &[usize]) -> JsValue {
     counts.iter().map(|&count| JsValue::from(count)).collect::<Array>().into()
 }
 

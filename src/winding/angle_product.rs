@@ -54,6 +54,16 @@ impl AngleProduct {
     }
 }
 
+/// `values` with the sign that `sign` gives, 1 or −1, in the lanes that are set in `open`; none of these becomes 0.
+#[inline]
+pub fn with_signs(values: f64x4, open: u32, sign: impl Fn(usize) -> f64) -> f64x4 {
+    let mut parts = values.to_array();
+    for k in (0..WIDTH).filter(|k| open >> k & 1 == 1) {
+        parts[k] = sign(k) * parts[k].abs().max(f64::MIN_POSITIVE);
+    }
+    f64x4::from(parts)
+}
+
 /// One lane of an [`AngleProduct`].
 struct AngleProduct1 {
     real: f64,

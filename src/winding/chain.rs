@@ -4,7 +4,7 @@
 //! Linear in the number of triangles: vertices and edges are distributed over buckets that fit in a cache, never kept in
 //! one large hash map.
 use super::buckets::{Buckets, counting_sort};
-use crate::data::{TriangleSoup, map_tasks, sorted_pairs};
+use crate::data::{Sets, TriangleSoup, map_tasks, sorted_pairs};
 use crate::math::Vec3;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -130,23 +130,9 @@ pub fn cycles(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
 /// For each vertex, the lowest vertex of its component: two triangles belong together if a chain of triangles that share
 /// welded vertices leads from one to the other.
 pub fn components(soup: &TriangleSoup, welded: &[u32]) -> Vec<u32> {
-    let mut parents = welded.to_vec();
-    for corners in soup.triangles() {
-        let [a, b, c] = corners.map(|i| root(&mut parents, i));
-        let lowest = a.min(b).min(c);
-        [a, b, c].into_iter().for_each(|i| parents[i as usize] = lowest);
-    }
-    (0..parents.len() as u32).map(|i| root(&mut parents, i)).collect()
-}
-
-/// The vertex that stands for the component of vertex `i`; shortens the way there.
-fn root(parents: &mut [u32], mut i: u32) -> u32 {
-    while parents[i as usize] != i {
-        let above = parents[parents[i as usize] as usize];
-        parents[i as usize] = above;
-        i = above;
-    }
-    i
+    let mut sets = Sets::of(welded.to_vec());
+    soup.triangles().iter().for_each(|corners| sets.join_all(*corners));
+    sets.into_least()
 }
 
 #[cfg(test)]

@@ -1,17 +1,17 @@
 //! The field of a cloud: the dual tree for many points, the tree of Barill et al. 2018 for few.
 use super::dipoles::Dipoles;
 use super::many::{InsideTest, Many};
-use crate::data::{Cancelled, Loader, Monitor, OrientedCloud, SavedError};
+use crate::data::{Cancelled, Lazy, Loader, Monitor, OrientedCloud, SavedError};
 use crate::math::Vec3;
 use crate::treecode::{Scratch, Targets, Tree, TreeConfig, direct_sums};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-use std::sync::{Arc, OnceLock};
 
 pub struct CloudField {
     dipoles: Arc<Dipoles>,
     config: TreeConfig,
     pub many: Many,
-    few: OnceLock<Tree<Dipoles>>,
+    few: Lazy<Tree<Dipoles>>,
     refined: AtomicUsize,
 }
 
@@ -36,17 +36,12 @@ impl CloudField {
     }
 
     fn with(dipoles: Arc<Dipoles>, many: Many, config: TreeConfig) -> CloudField {
-        CloudField { dipoles, config, many, few: OnceLock::new(), refined: AtomicUsize::new(0) }
+        CloudField { dipoles, config, many, few: Lazy::new(), refined: AtomicUsize::new(0) }
     }
 
-    /// The tree for few points. Built outside of the cell that holds it: a thread that waited for another to build could be
-    /// the one whose help that other waits for.
+    /// The tree for few points.
     pub fn few(&self) -> &Tree<Dipoles> {
-        if let Some(tree) = self.few.get() {
-            return tree;
-        }
-        let _ = self.few.set(Tree::build(&*self.dipoles, &self.config));
-        self.few.get().expect("it was set just now, here or by another thread")
+        self.few.get_or_build(|| Tree::build(&*self.dipoles, &self.config))
     }
 
     /// The β for which the tree for few points stays within an error: `of_dipoles`, or more for bounded points, which lack up to

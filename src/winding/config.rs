@@ -1,7 +1,11 @@
 //! How a field is prepared and how exact its answers are, what was built, and why there are none.
 use crate::data::{Cancelled, LatticeError, OutOfMemory, Shape};
+use crate::levelset::TraceError;
 use crate::treecode::Order;
 use serde::Serialize;
+
+/// The winding number from which on a point counts as inside: half way between 0, outside, and 1, inside once.
+pub const THRESHOLD: f64 = 0.5;
 
 /// How a field is prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,4 +89,15 @@ pub enum FieldError {
     Cancelled(#[from] Cancelled),
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
+}
+
+/// Why a level set that is asked for values at points has none.
+impl From<FieldError> for TraceError {
+    fn from(error: FieldError) -> TraceError {
+        match error {
+            FieldError::Cancelled(cancelled) => cancelled.into(),
+            FieldError::OutOfMemory(out_of_memory) => out_of_memory.into(),
+            FieldError::Lattice(_) => unreachable!("no lattice was asked for"),
+        }
+    }
 }

@@ -8,7 +8,7 @@
 //!
 //! Crossing and solid angle jump together where q passes under an edge: there the argument is near ±π, and its sign is
 //! that of the exact predicate which also decides the crossing.
-use super::angle_product::AngleProduct;
+use super::angle_product::{AngleProduct, with_signs};
 use crate::bvh::WIDTH;
 use crate::math::{Vec3, normal_signs, side_of_edge};
 use wide::f64x4;
@@ -133,13 +133,7 @@ fn multiply(product: &mut AngleProduct, a: &End, b: &End, edge: [Vec3; 2], queri
 /// Imaginary parts with the signs of the exact predicate in the doubtful lanes.
 #[cold]
 fn decided(imaginary: f64x4, doubtful: f64x4, [from, to]: [Vec3; 2], queries: &[Vec3; LANES]) -> f64x4 {
-    let mut parts = imaginary.to_array();
-    let mask = doubtful.to_bitmask();
-    for k in (0..LANES).filter(|k| mask >> k & 1 == 1) {
-        let size = parts[k].abs().max(f64::MIN_POSITIVE);
-        parts[k] = f64::from(side_of_edge(queries[k], from, to)) * size;
-    }
-    f64x4::from(parts)
+    with_signs(imaginary, doubtful.to_bitmask(), |k| f64::from(side_of_edge(queries[k], from, to)))
 }
 
 #[cfg(test)]

@@ -42,11 +42,12 @@ pub fn winding_gradient_of_soup(soup: &TriangleSoup, q: Vec3) -> Vec3 {
     if !q.is_finite() {
         return Vec3::NAN;
     }
-    let rim = |t: usize| {
-        let [a, b, c] = soup.corners(t);
-        edge_gradient(q, a, b) + edge_gradient(q, b, c) + edge_gradient(q, c, a)
-    };
-    (0..soup.len()).map(rim).sum()
+    (0..soup.len()).map(|t| rim_gradient(q, soup.corners(t))).sum()
+}
+
+/// The sum over the edges of a triangle.
+pub fn rim_gradient(q: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
+    edge_gradient(q, a, b) + edge_gradient(q, b, c) + edge_gradient(q, c, a)
 }
 
 /// The gradient of [`super::winding_of_cloud`] at `q`: Σ a (3 (n·u) u − n) / (4π |r|³), r = p − q, u = r/|r|.

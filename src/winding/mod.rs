@@ -3,12 +3,11 @@
 //! `exact` is the definition and the oracle, `bounded` that of points that are bounded, `planar` the field of points of a
 //! plane. `field` is the front: a soup's field (`soup_field`) is an integer by crossings
 //! (`scan` on lattices, `locate` over `columns` at scattered points) and a fraction of what closes it (`chain`, `closure`,
-//! `curtain`), summed on lattices by `boundary` and spared most inside tests of scattered points by `answers`. Clouds
-//! (`cloud_field`) and triangles that are not worth closing (`loose`) are summed by a dual tree where many points are asked
-//! for at once (`many`), and by the tree of Barill et al. 2018 at few. `hierarchy`, `parity` and, on lattices, `stab` are the methods
-//! that papers compare theirs with. `saved` has fields as bytes.
+//! `curtain`), summed on lattices by `boundary` and spared most inside tests of scattered points. Clouds (`cloud_field`) and
+//! triangles that are not worth closing are summed by a dual tree where many points are asked for at once (`many`), and by the
+//! tree of Barill et al. 2018 at few. `baselines` are the methods that papers compare theirs with. `saved` has fields as bytes.
 mod angle_product;
-mod answers;
+mod baselines;
 mod boundary;
 mod bounded;
 mod buckets;
@@ -25,35 +24,28 @@ mod facets;
 mod field;
 mod gradient;
 mod half_angle;
-mod hierarchy;
-mod lattice;
 mod locate;
-mod loose;
 mod many;
 mod near;
-mod parity;
 mod planar;
 mod saved;
 mod scan;
 mod soup_field;
-mod stab;
 mod surface_rule;
 mod triangles;
 mod variation;
 
 pub use crate::treecode::{Order, Scratch};
+pub use baselines::{ExactHierarchy, RayParity, Rays, StabCount, Stabbing, stab_lattice};
 pub use bounded::{
     bounded, bounded_gradient_of_cloud, bounded_slope, bounded_winding_in_plane, bounded_winding_of_cloud,
 };
 pub(crate) use chain::{components, cycles, net_edges, weld};
-pub use config::{Accuracy, FieldConfig, FieldError, FieldReport};
+pub use config::{Accuracy, FieldConfig, FieldError, FieldReport, THRESHOLD};
 pub use dipoles::Dipoles;
 pub use exact::{winding, winding_of_cloud, winding_of_soup};
 pub use field::WindingField;
 pub use gradient::{edge_gradient, winding_gradient, winding_gradient_of_cloud, winding_gradient_of_soup};
-pub use hierarchy::ExactHierarchy;
-pub use parity::{RayParity, Rays};
 pub use planar::{PlanarCloud, PlanarConfig, PlanarCost, PlanarError, PlanarField};
 pub use saved::{LoadError, is_saved_field};
-pub use stab::{StabCount, Stabbing, stab_lattice};
 pub use triangles::Triangles;

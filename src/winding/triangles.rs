@@ -1,5 +1,5 @@
 //! Triangles as sources: solid angles near, dipole moments far (Barill et al. 2018, section 3.3).
-use super::angle_product::AngleProduct;
+use super::angle_product::{AngleProduct, with_signs};
 use super::closure::Closure;
 use crate::bvh::WIDTH;
 use crate::data::TriangleSoup;
@@ -134,14 +134,11 @@ impl Kernel for Triangles {
 /// or next to it: the solid angle of a cap then jumps exactly where its crossing does.
 #[cold]
 fn decided(numerator: f64x4, doubtful: u32, block: &TriangleBlock, q: &Lanes) -> f64x4 {
-    let mut parts = numerator.to_array();
-    for k in (0..WIDTH).filter(|k| doubtful >> k & 1 == 1) {
+    with_signs(numerator, doubtful, |k| {
         let at = |lanes: &Lanes| Vec3::from_array([0, 1, 2].map(|axis| lanes[axis].to_array()[k]));
         // Seen from the side to which the normal points the solid angle is negative.
-        let side = -perturbed_side_of_plane(at(q), block.corners.each_ref().map(at));
-        parts[k] = f64::from(side) * parts[k].abs().max(f64::MIN_POSITIVE);
-    }
-    f64x4::from(parts)
+        f64::from(-perturbed_side_of_plane(at(q), block.corners.each_ref().map(at)))
+    })
 }
 
 /// [`super::edge_gradient`] of four edges, times 4π, given their ends relative to the query.

@@ -1,8 +1,8 @@
 //! Closed patches: outward, unless they are cavities of others.
 use super::Scene;
-use super::rays::Random;
+use super::rays::{random_direction, random_of};
 use crate::data::map_tasks;
-use crate::math::Ray;
+use crate::math::{Ray, barycentre};
 
 /// Where so much of a patch's area runs one way, that is no accident.
 pub const EVIDENCE: f64 = 0.75;
@@ -38,11 +38,11 @@ pub fn turn_closed(scene: &Scene, is_turned: &mut [bool]) {
 /// The patches that a closed one lies in.
 fn patches_around(scene: &Scene, own: usize) -> Vec<usize> {
     let faces = &scene.patches.list[own].faces;
-    let mut random = Random::new(own as u64);
+    let mut random = random_of(own);
     let mut crossed: Vec<(usize, usize)> = Vec::new();
     for k in 0..RAYS {
         let face = faces[k * faces.len() / RAYS] as usize;
-        let ray = Ray::new(crate::math::barycentre(scene.soup.corners(face)), random.direction());
+        let ray = Ray::new(barycentre(scene.soup.corners(face)), random_direction(&mut random));
         scene.bvh.for_each(
             |bounds| ray.enters(bounds) < f64::INFINITY,
             |t| {

@@ -1,6 +1,6 @@
 //! Pieces of a soup in which each face says how the others run.
 use crate::data::{LeftOut, Topology, TriangleSoup};
-use crate::math::area_vector;
+use crate::math::{area_vector, signed_volume};
 use crate::winding::weld;
 
 pub struct Patch {
@@ -52,8 +52,7 @@ impl Patches {
             patch.area_to.push(patch.area() + area);
             patch.faces.push(t as u32);
             areas[number][usize::from(topology.is_turned[t])] += area;
-            let [a, b, c] = soup.corners(t).map(|p| p - anchor);
-            let volume = a.dot(b.cross(c)) / 6.0;
+            let volume = signed_volume(soup.corners(t), anchor);
             patch.volume += if topology.is_turned[t] { -volume } else { volume };
             let is_joined = |side: usize| topology.joined[3 * t + side] != Topology::NONE;
             patch.is_closed &= (0..3).all(is_joined) && patch.is_orientable;

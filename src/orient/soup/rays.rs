@@ -2,7 +2,7 @@
 use super::nesting::EVIDENCE;
 use super::{FaceMethod, Scene};
 use crate::data::{Cancelled, Monitor, fill_in_blocks};
-use crate::math::{Ray, Vec3, area_vector};
+use crate::math::{Random, Ray, Vec3, area_vector};
 use std::f64::consts::TAU;
 
 /// Rays from either side before it is asked whether they agree.
@@ -47,7 +47,7 @@ pub fn turns(
 
 fn is_to_turn(scene: &Scene, patch: usize, method: FaceMethod, most_rays: usize) -> bool {
     let mut sides = [Votes::default(); 2];
-    let mut random = Random::new(patch as u64);
+    let mut random = random_of(patch);
     let of_patch = &scene.patches.list[patch];
     let is_small = of_patch.faces.len() <= FEW_FACES;
     let has_reason = of_patch.faces.len() >= SOME_FACES && of_patch.agreement >= EVIDENCE;
@@ -91,13 +91,13 @@ fn opinions([front, back]: &[Votes; 2]) -> [f64; 3] {
 fn cast_ray(scene: &Scene, patch: usize, random: &mut Random, is_front: bool, votes: &mut Votes) {
     let of_patch = &scene.patches.list[patch];
     // A place evenly drawn from the patch's area.
-    let wanted = random.next() * of_patch.area();
+    let wanted = random.below_one() * of_patch.area();
     let place = of_patch.area_to.partition_point(|area| *area <= wanted).min(of_patch.faces.len() - 1);
     let face = of_patch.faces[place] as usize;
     let corners = scene.soup.corners(face);
     let [a, b, c] = corners;
-    let root = random.next().sqrt();
-    let along = random.next();
+    let root = random.below_one().sqrt();
+    let along = random.below_one();
     let origin = a + root * (1.0 - along) * (b - a) + root * along * (c - a);
     let mut normal = area_vector(corners).normalize_or_zero();
     if normal == Vec3::ZERO {
@@ -108,8 +108,8 @@ fn cast_ray(scene: &Scene, patch: usize, random: &mut Random, is_front: bool, vo
     }
     // As much as surfaces shine: more rays go straight away.
     let (x, y) = normal.any_orthonormal_pair();
-    let (sin, cos) = (TAU * random.next()).sin_cos();
-    let tilt = random.next();
+    let (sin, cos) = (TAU * random.below_one()).sin_cos();
+    let tilt = random.below_one();
     let direction = tilt.sqrt() * (cos * x + sin * y) + (1.0 - tilt).sqrt() * normal;
     let ray = Ray::new(origin, direction);
     let diagonal = scene.bounds.diagonal();
@@ -134,27 +134,15 @@ fn cast_ray(scene: &Scene, patch: usize, random: &mut Random, is_front: bool, vo
     votes.distance += nearest / diagonal;
 }
 
-/// Evenly distributed numbers, the same for the same seed (SplitMix64, Steele et al. 2014).
-pub struct Random(u64);
+/// What is drawn for a patch; the factor keeps the sequences of different ones apart.
+pub fn random_of(patch: usize) -> Random {
+    Random::new((patch as u64).wrapping_mul(0xd134_2543_de82_ef95))
+}
 
-impl Random {
-    pub fn new(seed: u64) -> Random {
-        Random(seed.wrapping_mul(0xd134_2543_de82_ef95))
-    }
-
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// A unit vector.
-    pub fn direction(&mut self) -> Vec3 {
-        let z = 1.0 - 2.0 * self.next();
-        let (sin, cos) = (TAU * self.next()).sin_cos();
-        let r = (1.0 - z * z).max(0.0).sqrt();
-        Vec3::new(r * cos, r * sin, z)
-    }
+/// A unit vector, evenly distributed (Archimedes' cylinder).
+pub fn random_direction(random: &mut Random) -> Vec3 {
+    let z = 1.0 - 2.0 * random.below_one();
+    let (sin, cos) = (TAU * random.below_one()).sin_cos();
+    let r = (1.0 - z * z).max(0.0).sqrt();
+    Vec3::new(r * cos, r * sin, z)
 }

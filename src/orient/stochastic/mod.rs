@@ -9,10 +9,10 @@ mod tests;
 
 use crate::data::Monitor;
 use crate::estimate::EstimateError;
-use crate::math::{Aabb, Vec3};
+use crate::math::{Aabb, Random, Vec3};
 use parameters::Parameters;
 use problem::Problem;
-use samples::{Deck, Random, Samples};
+use samples::{Deck, Samples};
 
 /// How many steps there are, how long, on how many samples and for which sum of losses. The paper gives none of these numbers:
 /// the defaults were chosen on 3,000 points each of six models (bunny, dragon, knot, bumpy ball, teapot, a CAD part) without
@@ -99,7 +99,7 @@ pub fn stochastic_area_vectors(
     let extent = bounds.size().max_element();
     let scale = if extent > 0.0 { 2.0 / extent } else { 1.0 };
     let scaled: Vec<Vec3> = points.iter().map(|p| (*p - bounds.center()) * scale).collect();
-    let mut random = Random(config.seed);
+    let mut random = Random::new(config.seed);
     let (problem, areas) = Problem::new(scaled, monitor)?;
     let mut parameters = Parameters::random(areas, &mut random);
     let mut deck = Deck::new(points.len());

@@ -1,6 +1,5 @@
 //! Normals in spherical coordinates and areas: what Adam (Kingma and Ba 2015) moves.
-use super::samples::Random;
-use crate::math::Vec3;
+use crate::math::{Random, Vec3};
 use std::f64::consts::TAU;
 
 /// Least and most of an area, in its estimate (*Leaps and Bounds*, appendix F.2).
@@ -22,7 +21,7 @@ pub struct Parameters {
 impl Parameters {
     /// Normals at random, each direction as likely as any other, and the areas `estimates`.
     pub fn random(estimates: Vec<f64>, random: &mut Random) -> Parameters {
-        let mut triple = || [libm::acos(2.0 * random.unit() - 1.0), TAU * random.unit(), 0.0];
+        let mut triple = || [libm::acos(2.0 * random.above_zero() - 1.0), TAU * random.above_zero(), 0.0];
         let values: Vec<Triple> = estimates.iter().map(|_| triple()).collect();
         let zeros = vec![[0.0; 3]; estimates.len()];
         Parameters { values, estimates, means: zeros.clone(), squares: zeros, steps: 0 }

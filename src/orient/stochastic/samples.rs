@@ -1,41 +1,20 @@
 //! Places around some of the points, drawn anew for each step.
 use super::StochasticConfig;
 use super::problem::Problem;
-use crate::math::Vec3;
+use crate::math::{Random, Vec3};
 use std::f64::consts::TAU;
 
 /// The standard deviation of coarse samples along each axis, where the cloud fills [−1, 1]³.
 const COARSE: f64 = 0.3;
 
-/// Random numbers: SplitMix64 (Steele et al. 2014).
-pub struct Random(pub u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
-    }
-
-    /// Evenly distributed in (0, 1].
-    pub fn unit(&mut self) -> f64 {
-        ((self.bits() >> 11) + 1) as f64 / (1u64 << 53) as f64
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        ((u128::from(self.bits()) * count as u128) >> 64) as usize
-    }
-
-    /// Three normally distributed numbers (Box and Muller).
-    fn normal(&mut self) -> Vec3 {
-        let mut pair = || {
-            let (radius, angle) = ((-2.0 * libm::log(self.unit())).sqrt(), TAU * self.unit());
-            (radius * libm::cos(angle), radius * libm::sin(angle))
-        };
-        let ((x, y), (z, _)) = (pair(), pair());
-        Vec3::new(x, y, z)
-    }
+/// Three normally distributed numbers (Box and Muller).
+fn normal(random: &mut Random) -> Vec3 {
+    let mut pair = || {
+        let (radius, angle) = ((-2.0 * libm::log(random.above_zero())).sqrt(), TAU * random.above_zero());
+        (radius * libm::cos(angle), radius * libm::sin(angle))
+    };
+    let ((x, y), (z, _)) = (pair(), pair());
+    Vec3::new(x, y, z)
 }
 
 /// All points again and again in random order, some at a time.
@@ -86,10 +65,10 @@ impl Samples {
         let mut places = Vec::with_capacity(numbers.len() * (fine + coarse + 1));
         for i in numbers {
             let spacing = problem.spacings[*i as usize];
-            places.extend((0..fine).map(|_| point(i) + spacing * random.normal()));
+            places.extend((0..fine).map(|_| point(i) + spacing * normal(random)));
         }
         for i in numbers {
-            places.extend((0..coarse).map(|_| point(i) + COARSE * random.normal()));
+            places.extend((0..coarse).map(|_| point(i) + COARSE * normal(random)));
         }
         places.extend(numbers.iter().map(point));
         Samples { numbers: numbers.to_vec(), fine, coarse, places }
@@ -112,8 +91,8 @@ mod tests {
 
     #[test]
     fn normal_numbers_have_mean_0_and_variance_1() {
-        let mut random = Random(3);
-        let drawn: Vec<Vec3> = (0..20_000).map(|_| random.normal()).collect();
+        let mut random = Random::new(3);
+        let drawn: Vec<Vec3> = (0..20_000).map(|_| normal(&mut random)).collect();
         let mean = drawn.iter().sum::<Vec3>() / 20_000.0;
         let variance = drawn.iter().map(|v| *v * *v).sum::<Vec3>() / 20_000.0;
         // Four standard deviations of these: 1/√20,000 and √2 times that.
@@ -123,7 +102,7 @@ mod tests {
 
     #[test]
     fn every_point_has_its_turn() {
-        let (mut deck, mut random) = (Deck::new(10), Random(1));
+        let (mut deck, mut random) = (Deck::new(10), Random::new(1));
         for _ in 0..5 {
             let mut dealt = [deck.deal(5, &mut random).to_vec(), deck.deal(5, &mut random).to_vec()].concat();
             dealt.sort_unstable();

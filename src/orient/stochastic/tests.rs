@@ -1,15 +1,15 @@
 //! The loss and its slopes beside the definitions, in 64 bits.
 use super::parameters::{Parameters, Triple};
 use super::problem::Problem;
-use super::samples::{Deck, Random, Samples};
+use super::samples::{Deck, Samples};
 use super::{LossWeights, StochasticConfig};
 use crate::data::Silent;
-use crate::math::Vec3;
+use crate::math::{Random, Vec3};
 use std::f64::consts::PI;
 
 /// A ball's points, from which normals point anywhere.
 fn setting(opening: f64) -> (Problem, Vec<f64>, Parameters, Samples, StochasticConfig) {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     let point = |i: usize| {
         let z = 1.0 - 2.0 * (i as f64 + 0.5) / 60.0;
         let (r, a) = ((1.0 - z * z).sqrt(), 2.4 * i as f64);
@@ -19,7 +19,7 @@ fn setting(opening: f64) -> (Problem, Vec<f64>, Parameters, Samples, StochasticC
     problem.opening = opening;
     let mut parameters = Parameters::random(areas.clone(), &mut random);
     // So that the bound matters, and areas are not what they were.
-    parameters.values.iter_mut().for_each(|[_, _, area]| *area = 0.3 + random.unit());
+    parameters.values.iter_mut().for_each(|[_, _, area]| *area = 0.3 + random.above_zero());
     let weights =
         LossWeights { zero_or_one: 0.7, mean: 1.3, variance: 0.9, alignment: 0.4, surface: 1.1, area: 0.2 };
     let config = StochasticConfig { fine: 5, coarse: 3, weights, ..Default::default() };

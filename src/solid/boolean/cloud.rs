@@ -4,11 +4,10 @@ use crate::data::{Lattice, LatticeError, Monitor, OrientedCloud, TriangleSoup};
 use crate::estimate::{EstimateError, roughness};
 use crate::levelset::{Edge, LevelSet, SurfaceGrid, TraceError, cells_of_points, find_roots, trace_surface};
 use crate::math::Vec3;
-use crate::winding::{Accuracy, FieldError, WindingField};
+use crate::winding::{Accuracy, THRESHOLD, WindingField};
 
 /// Largest error of w.
 const TOLERANCE: f64 = 1e-2;
-const HALF: f64 = 0.5;
 /// Edge of a cell, in distances between points.
 const CELL: f64 = 0.7;
 
@@ -16,13 +15,8 @@ struct Level<'a>(&'a WindingField);
 
 impl Level<'_> {
     fn at(&self, points: &[Vec3], monitor: &dyn Monitor) -> Result<Vec<f64>, TraceError> {
-        let found = self.0.evaluate(points, Accuracy::Tolerance(TOLERANCE), monitor);
-        let values = found.map_err(|error| match error {
-            FieldError::Cancelled(error) => TraceError::Cancelled(error),
-            FieldError::OutOfMemory(error) => TraceError::OutOfMemory(error),
-            FieldError::Lattice(_) => unreachable!("no lattice was asked for"),
-        })?;
-        Ok(values.into_iter().map(|w| w - HALF).collect())
+        let values = self.0.evaluate(points, Accuracy::Tolerance(TOLERANCE), monitor)?;
+        Ok(values.into_iter().map(|w| w - THRESHOLD).collect())
     }
 }
 

@@ -1,9 +1,9 @@
 //! Which pieces stay, when each operand is looked at from the other.
-use super::operands::{Operand, Pieces, edges, key};
+use super::operands::{Operand, Pieces};
 use super::regions::{Regions, across_vertices};
 use super::sides::{self, Fate};
 use super::{BooleanError, BooleanOp};
-use crate::data::Monitor;
+use crate::data::{Monitor, edges, sorted};
 use crate::math::{Vec3, barycentre};
 use rustc_hash::FxHashMap;
 
@@ -54,13 +54,13 @@ fn drop_copies(pieces: &Pieces, regions: &Regions, kept: &mut [Fate]) {
         if !regions.is_double[regions.of[piece] as usize] || kept[piece] == Fate::Dropped {
             continue;
         }
-        let before = *first.entry(key(pieces.corners[piece])).or_insert(piece);
+        let before = *first.entry(sorted(pieces.corners[piece])).or_insert(piece);
         if before == piece {
             continue;
         }
         if kept[before] == Fate::Turned && kept[piece] == Fate::Kept {
             kept[before] = Fate::Dropped;
-            first.insert(key(pieces.corners[piece]), piece);
+            first.insert(sorted(pieces.corners[piece]), piece);
         } else {
             kept[piece] = Fate::Dropped;
         }

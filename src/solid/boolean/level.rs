@@ -3,14 +3,13 @@
 //! Edges that change sides are halved until they are as short as asked for, large triangles near openings too; what still changes
 //! sides is cut where it does. Seams stay as they are: the field jumps there.
 use super::BooleanError;
-use super::operands::{Pieces, edge, edges, key};
-use crate::data::{Monitor, fill_in_blocks};
+use super::operands::Pieces;
+use crate::data::{Monitor, edge_between, edges, fill_in_blocks, sorted};
 use crate::levelset::crossing;
 use crate::math::{Aabb, Vec3};
-use crate::winding::{Accuracy, Scratch, WindingField};
+use crate::winding::{Accuracy, Scratch, THRESHOLD, WindingField};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-const HALF: f64 = 0.5;
 /// Largest error of w where sides are told.
 const TOLERANCE: f64 = 1e-4;
 /// Rounds of halving: an edge becomes a 4,000th of what it was.
@@ -75,7 +74,7 @@ pub fn cut(
     let mut places: FxHashMap<[u32; 3], u8> = FxHashMap::default();
     for (piece, corners) in pieces.corners.iter().enumerate() {
         if corners.iter().all(|v| is_cut[*v as usize]) {
-            *places.entry(key(*corners)).or_default() |= 1 << pieces.operand(piece);
+            *places.entry(sorted(*corners)).or_default() |= 1 << pieces.operand(piece);
         }
     }
     // Pieces that both have stay equal.
@@ -135,7 +134,7 @@ impl Cutter<'_> {
             }
         }
         let values = self.field.evaluate(&points, Accuracy::Tolerance(TOLERANCE), monitor)?;
-        let mut values = values.into_iter().map(|w| w - HALF);
+        let mut values = values.into_iter().map(|w| w - THRESHOLD);
         let mut next = || values.next().unwrap_or_default();
         for vertex in vertices {
             let value = next();
@@ -176,9 +175,7 @@ impl Cutter<'_> {
                 let bounds = Aabb::around(corners.map(|v| self.at(v)));
                 let limit = openings
                     .iter()
-                    .filter(|(opening, _)| {
-                        bounds.min.cmple(opening.max).all() && opening.min.cmple(bounds.max).all()
-                    })
+                    .filter(|(opening, _)| bounds.overlaps(opening))
                     .map(|(_, limit)| *limit)
                     .fold(f64::INFINITY, f64::min);
                 let longest = of_piece
@@ -244,7 +241,7 @@ impl Cutter<'_> {
         let find = |i: usize, scratch: &mut Scratch| {
             let [from, to] = crossed[i].map(|v| self.at(v));
             let at_zero = self.known[&crossed[i]].ends[0] >= 0.0;
-            crossing(at_zero, |t| self.field.is_nearly_above(from.lerp(to, t), HALF, scratch))
+            crossing(at_zero, |t| self.field.is_nearly_above(from.lerp(to, t), THRESHOLD, scratch))
         };
         fill_in_blocks(&mut shares, find, "cutting along the level set", monitor)?;
         let mut cuts: FxHashMap<[u32; 2], u32> = FxHashMap::default();
@@ -261,10 +258,10 @@ impl Cutter<'_> {
                 [] => continue,
                 [x] => {
                     let opposite = (0..3).find(|k| at[*k].is_some()).map_or(0, |k| corners[(k + 2) % 3]);
-                    vec![edge(x, opposite)]
+                    vec![edge_between(x, opposite)]
                 }
-                [x, y] => vec![edge(x, y)],
-                [x, y, z] => vec![edge(x, y), edge(y, z), edge(z, x)],
+                [x, y] => vec![edge_between(x, y)],
+                [x, y, z] => edges([x, y, z]).to_vec(),
                 _ => unreachable!("a triangle has three edges"),
             };
             self.pieces.seams.extend(chords);

@@ -125,18 +125,3 @@ pub fn snapped<'a>(operands: &[Operand; 2]) -> Result<[Operand<'a>; 2], SoupErro
     };
     Ok([snap(&operands[0])?, snap(&operands[1])?])
 }
-
-pub fn edge(a: u32, b: u32) -> [u32; 2] {
-    [a.min(b), a.max(b)]
-}
-
-/// The edges of a piece, lower vertex first; edge k leads from corner k to the next.
-pub fn edges([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
-    [edge(a, b), edge(b, c), edge(c, a)]
-}
-
-/// Corners in rising order: equal for triangles in the same place.
-pub fn key(mut corners: [u32; 3]) -> [u32; 3] {
-    corners.sort_unstable();
-    corners
-}

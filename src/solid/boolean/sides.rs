@@ -1,8 +1,8 @@
 //! Which pieces bound the result: it is inside on one side of them only.
-use super::operands::{Operand, Pieces, key};
+use super::operands::{Operand, Pieces};
 use super::regions::{Regions, across_edges};
 use super::{BooleanError, BooleanOp};
-use crate::data::Monitor;
+use crate::data::{Monitor, sorted};
 use crate::math::{Vec3, area_vector, barycentre};
 use rustc_hash::FxHashMap;
 
@@ -32,7 +32,7 @@ pub fn keep(
     let fates = fates(pieces, operands, op, &regions, &all, monitor)?;
     let mut first: FxHashMap<[u32; 3], usize> = FxHashMap::default();
     let fate = |piece: usize| {
-        let is_first = *first.entry(key(pieces.corners[piece])).or_insert(piece) == piece;
+        let is_first = *first.entry(sorted(pieces.corners[piece])).or_insert(piece) == piece;
         if is_first { fates[regions.of[piece] as usize] } else { Fate::Dropped }
     };
     Ok((0..pieces.corners.len()).map(fate).collect())

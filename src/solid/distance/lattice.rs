@@ -1,15 +1,14 @@
 //! Signed distances at all samples of a lattice.
 use super::{DistanceConfig, DistanceError, DistanceSign, SignedDistance, hard, smooth};
-use crate::data::{Grid, Lattice, Monitor, Parts, map_tasks, zeroed};
+use crate::data::{Grid, Lattice, Monitor, Parts, bit, map_tasks, zeroed};
 use crate::distance::Search;
-use crate::winding::Accuracy;
+use crate::winding::{Accuracy, THRESHOLD};
 use std::ops::Range;
 
 /// Samples across a strip, and layers of a slab.
 const WIDTH: usize = 4;
 /// Strips between two reports.
 const STRIPS_PER_REPORT: usize = 64;
-const HALF: f64 = 0.5;
 /// The part of the progress that signing tells, which comes first.
 const SIGNED: f64 = 0.4;
 
@@ -58,7 +57,7 @@ impl SignedDistance<'_> {
         let (mut bits, mut winding) = (Vec::new(), Vec::new());
         match config.sign {
             DistanceSign::None => {}
-            DistanceSign::Hard => bits = self.field.classify_lattice(lattice, HALF, monitor)?,
+            DistanceSign::Hard => bits = self.field.classify_lattice(lattice, THRESHOLD, monitor)?,
             DistanceSign::Smooth => {
                 winding = self.field.evaluate_lattice(lattice, Accuracy::default(), monitor)?.values;
             }
@@ -66,7 +65,7 @@ impl SignedDistance<'_> {
         monitor.begin(signed_at, 1.0);
         let signed = |index: usize, distance: f64| match config.sign {
             DistanceSign::None => distance,
-            DistanceSign::Hard => hard(distance, bits[index / 8] >> (index % 8) & 1 == 1),
+            DistanceSign::Hard => hard(distance, bit(&bits, index)),
             DistanceSign::Smooth => smooth(distance, winding[index]),
         };
         let [nx, ny, nz] = lattice.counts;

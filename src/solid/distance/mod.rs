@@ -5,10 +5,10 @@
 //! surface the distance is 0. Triangles within a solid count too: there, distances are those to the nearest triangle, not to the outside.
 mod lattice;
 
-use crate::bvh::{morton_code, sorted_codes};
-use crate::data::{Cancelled, Monitor, OutOfMemory, Parts, fill_blocks, map_items, zeroed};
+use crate::bvh::along_curve;
+use crate::data::{Cancelled, Monitor, OutOfMemory, Parts, fill_blocks, zeroed};
 use crate::distance::{Closest, DistanceTree, Search};
-use crate::math::{Aabb, Vec3};
+use crate::math::{Feature, Vec3};
 use crate::winding::{Accuracy, FieldError, WindingField};
 use std::sync::Arc;
 
@@ -136,7 +136,7 @@ impl<'a> SignedDistance<'a> {
         let band = self.check(config)?;
         let monitor = &Parts::new(monitor);
         monitor.begin(0.0, if config.sign == DistanceSign::None { 1.0 } else { MEASURED });
-        let (order, sorted) = along_a_curve(points);
+        let (order, sorted) = along_the_curve(points);
         let mut found = zeroed(points.len())?;
         let measure = |first: usize, found: &mut [f64], search: &mut Search| {
             for (found, place) in found.iter_mut().zip(&sorted[first..]) {
@@ -172,7 +172,7 @@ impl<'a> SignedDistance<'a> {
         self.check(&DistanceConfig::default())?;
         let monitor = &Parts::new(monitor);
         monitor.begin(0.0, MEASURED);
-        let (order, sorted) = along_a_curve(points);
+        let (order, sorted) = along_the_curve(points);
         let mut found = zeroed(points.len())?;
         let measure = |first: usize, found: &mut [SignedClosest], search: &mut Search| {
             for (found, place) in found.iter_mut().zip(&sorted[first..]) {
@@ -224,7 +224,7 @@ impl SignedClosest {
             point: Vec3::NAN,
             element: 0,
             barycentric: [f64::NAN; 3],
-            feature: crate::math::Feature::Face,
+            feature: Feature::Face,
         },
         signed: f64::NAN,
         gradient: Vec3::NAN,
@@ -241,14 +241,12 @@ fn smooth(distance: f64, winding: f64) -> f64 {
     if distance.is_infinite() { distance } else { (1.0 - 2.0 * winding) * distance }
 }
 
-/// Points along a curve through them, on which neighbours are mostly near each other, and where each of them comes from.
-fn along_a_curve(points: &[Vec3]) -> (Vec<u32>, Vec<Vec3>) {
+/// Points along a curve through them, if they are many, and where each of them comes from.
+fn along_the_curve(points: &[Vec3]) -> (Vec<u32>, Vec<Vec3>) {
     if points.len() < MANY {
         return ((0..points.len() as u32).collect(), points.to_vec());
     }
-    let bounds = Aabb::around(points.iter().copied().filter(|p| p.is_finite()));
-    let codes = map_items(points.len(), |i| morton_code(points[i], &bounds));
-    let (_, order) = sorted_codes(codes);
+    let order = along_curve(points);
     let sorted = order.iter().map(|i| points[*i as usize]).collect();
     (order, sorted)
 }

@@ -12,7 +12,6 @@ use crate::winding::{FieldConfig, WindingField};
 const CELLS_OF_WALL: f64 = 2.0;
 /// Steps along the axis of a drain, in cells.
 const STEP: f64 = 0.5;
-const HALF: f64 = 0.5;
 
 /// A hole through the wall, round.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +109,7 @@ fn cylinder_of(region: &Region, drain: &Drain, thickness: f64) -> Option<Cylinde
     let direction = drain.direction.try_normalize()?;
     let bounds = region.field.bounds();
     let step = STEP * region.spacing;
-    let reach = drain.at.distance(bounds.center()) + HALF * bounds.diagonal();
+    let reach = drain.at.distance(bounds.center()) + 0.5 * bounds.diagonal();
     // What is farther away than the shape is large leads nowhere that steps would find.
     let steps = ((2.0 * reach / step).ceil() as i64).min(1 << 24);
     let mut search = Search::default();
@@ -129,7 +128,7 @@ fn cylinder_of(region: &Region, drain: &Drain, thickness: f64) -> Option<Cylinde
     })?;
     let end = (cavity..=steps).find(|k| depth(*k) < thickness)?;
     // So far that walls askew are cut through, but not into the opposite one.
-    let within = drain.radius.min(HALF * (end - cavity) as f64 * step);
+    let within = drain.radius.min(0.5 * (end - cavity) as f64 * step);
     let before = entry as f64 * step - drain.radius;
     Some(Cylinder {
         start: drain.at + before * direction,
@@ -148,7 +147,7 @@ fn has_cavity(
 ) -> Result<bool, OffsetError> {
     let mut is_deep = vec![false; mesh.positions.len()];
     let deep = |v: usize, search: &mut Search| {
-        region.tree.distance_within(mesh.positions[v], HALF * thickness, search).is_none()
+        region.tree.distance_within(mesh.positions[v], 0.5 * thickness, search).is_none()
     };
     fill_in_blocks(&mut is_deep, deep, "surface vertices", monitor)?;
     Ok(is_deep.contains(&true))

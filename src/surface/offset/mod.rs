@@ -10,10 +10,10 @@ pub use hollow::{Drain, HollowConfig, hollow};
 
 use super::sharp::{Limits, sharpen};
 use super::{SurfaceConfig, SurfaceError, check_sharp};
-use crate::data::{LARGEST_COORDINATE, LatticeError, Monitor, Parts, SurfaceMesh};
+use crate::data::{Cancelled, LARGEST_COORDINATE, LatticeError, Monitor, Parts, SurfaceMesh};
 use crate::distance::DistanceTree;
 use crate::levelset::{SurfaceGrid, TraceError, trace_surface};
-use crate::math::{Aabb, Vec3};
+use crate::math::Aabb;
 use crate::winding::WindingField;
 use region::{Kept, Region};
 use seeds::cells_near;
@@ -75,8 +75,8 @@ impl From<TraceError> for OffsetError {
     }
 }
 
-impl From<crate::data::Cancelled> for OffsetError {
-    fn from(cancelled: crate::data::Cancelled) -> OffsetError {
+impl From<Cancelled> for OffsetError {
+    fn from(cancelled: Cancelled) -> OffsetError {
         SurfaceError::from(cancelled).into()
     }
 }
@@ -163,10 +163,7 @@ fn surface_of(
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, OffsetError> {
     let spacing = region.spacing;
-    // The slack keeps a side of exactly n cells from getting n + 1 by rounding.
-    let cells = (bounds.size() / spacing - Vec3::splat(1e-9)).ceil().max(Vec3::ONE);
-    let origin = bounds.center() - 0.5 * spacing * (cells - Vec3::ONE);
-    let grid = SurfaceGrid { origin, spacing };
+    let grid = SurfaceGrid::over(bounds, spacing);
     region.field.prepare_single_points();
     let seeds = cells_near(region, &grid, bounds.padded(spacing), monitor)?;
     let mut mesh = trace_surface(&grid, &seeds, region, monitor)?;

@@ -4,9 +4,8 @@ use crate::data::{Monitor, fill_blocks, fill_in_blocks};
 use crate::distance::{DistanceTree, Search};
 use crate::levelset::{Edge, LevelSet, TraceError};
 use crate::math::Vec3;
-use crate::winding::{Scratch, WindingField};
+use crate::winding::{Scratch, THRESHOLD, WindingField};
 
-const HALF: f64 = 0.5;
 /// Nodes that make a task.
 const RUN: usize = 64;
 /// A vertex serves where the function is as small as this, in cells.
@@ -105,7 +104,7 @@ impl Region<'_> {
     pub fn value(&self, q: Vec3, probe: &mut Probe) -> f64 {
         let distance = self.distance(q, &mut probe.search);
         let value = self.kept.value(distance).unwrap_or_else(|| {
-            let inside = self.field.is_nearly_above(q, HALF, &mut probe.scratch);
+            let inside = self.field.is_nearly_above(q, THRESHOLD, &mut probe.scratch);
             self.kept.value_of_side(distance, inside)
         });
         self.without_drains(q, value)
@@ -130,7 +129,7 @@ impl Region<'_> {
             Kept::Near(_) => true,
             // Its inner side faces what is deeper, its outer one is met from either side.
             Kept::Shell(depth) => {
-                found.distance > HALF * depth || !self.field.is_nearly_above(q, HALF, &mut probe.scratch)
+                found.distance > 0.5 * depth || !self.field.is_nearly_above(q, THRESHOLD, &mut probe.scratch)
             }
         };
         if is_outward { away } else { -away }
@@ -151,7 +150,7 @@ impl Region<'_> {
             } else {
                 (high, at_high) = (guess, value);
             }
-            let share = if step % 2 == 1 || at_low == at_high { HALF } else { at_low / (at_low - at_high) };
+            let share = if step % 2 == 1 || at_low == at_high { 0.5 } else { at_low / (at_low - at_high) };
             guess = low + share.clamp(0.0, 1.0) * (high - low);
         }
         guess
@@ -175,7 +174,7 @@ impl LevelSet for Region<'_> {
             .filter(|(_, d)| self.kept.value(**d).is_none())
             .map(|(q, _)| *q)
             .collect();
-        let inside = self.field.classify(&asked, HALF, monitor).map_err(crate::surface::trace_error)?;
+        let inside = self.field.classify(&asked, THRESHOLD, monitor)?;
         let mut inside = inside.into_iter();
         let value = |(q, d): (&Vec3, &f64)| {
             let side = || self.kept.value_of_side(*d, inside.next().unwrap_or(false));

@@ -5,8 +5,8 @@ use crate::distance::Search;
 use crate::levelset::{Cell, SurfaceGrid};
 use crate::math::{Aabb, Vec3};
 use crate::surface::SurfaceError;
+use crate::winding::THRESHOLD;
 
-const HALF: f64 = 0.5;
 /// Cells along a side of the blocks that are looked at first, and last.
 const LARGEST: i32 = 64;
 const SMALLEST: i32 = 2;
@@ -62,7 +62,7 @@ fn kept(
     size: i32,
     monitor: &dyn Monitor,
 ) -> Result<Vec<Cell>, SurfaceError> {
-    let half = HALF * f64::from(size) * grid.spacing;
+    let half = 0.5 * f64::from(size) * grid.spacing;
     let center = |block: &Cell| grid.origin + grid.spacing * Vec3::from_array(block.map(f64::from)) + half;
     let radius = half * 3f64.sqrt() + SLACK * grid.spacing;
     let levels = region.kept.distances();
@@ -82,8 +82,7 @@ fn kept(
         // No triangle is in blocks that are farther from the shape than their radius: they are on one side.
         let aside: Vec<usize> = (0..blocks.len()).filter(|b| is_kept[*b] && found[*b] > radius).collect();
         let centers: Vec<Vec3> = aside.iter().map(|b| center(&blocks[*b])).collect();
-        let inside =
-            region.field.classify(&centers, HALF, &undetermined).map_err(crate::surface::trace_error)?;
+        let inside = region.field.classify(&centers, THRESHOLD, &undetermined)?;
         aside.iter().zip(inside).for_each(|(b, inside)| is_kept[*b] = inside == region.kept.is_within());
     }
     Ok(blocks.iter().zip(is_kept).filter(|(_, kept)| *kept).map(|(block, _)| *block).collect())

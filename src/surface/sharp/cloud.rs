@@ -1,9 +1,9 @@
 //! What the points of a cloud say of the surface near a place: planes of those whose normals agree.
 use super::plane::{Plane, meeting_of};
 use super::{Evidence, Limits, Search};
+use crate::bvh::PointTree;
 use crate::data::OrientedCloud;
 use crate::math::Vec3;
-use crate::surface::points::Points;
 use std::f64::consts::PI;
 
 /// Points that are looked at around a place: a circle of some two distances between points.
@@ -29,7 +29,7 @@ const ASIDE: f64 = 0.5;
 /// The points of a cloud.
 pub struct OfCloud<'a> {
     pub cloud: &'a OrientedCloud,
-    pub points: Points,
+    pub points: PointTree,
     pub limits: Limits,
 }
 
@@ -45,7 +45,7 @@ struct Neighbour {
 impl OfCloud<'_> {
     /// The neighbours of a place, nearest first, and the distance between points there.
     fn around(&self, place: Vec3, search: &mut Search) -> (Vec<Neighbour>, f64) {
-        let found = search.nearest.around(&self.points.bvh, &self.points.places, place, AROUND);
+        let found = search.nearest.around(&self.points, place, AROUND);
         let reach = found.last().map_or(0.0, |last| last.0);
         let spacing = (PI * reach / found.len() as f64).sqrt();
         let neighbour = |&(squared, point): &(f64, u32)| Neighbour {
@@ -107,9 +107,7 @@ fn is_between(normal: Vec3, planes: &[Plane]) -> bool {
 
 impl Evidence for OfCloud<'_> {
     fn normal(&self, place: Vec3, search: &mut Search) -> Option<Vec3> {
-        self.points
-            .nearest_to(place, &mut search.nearest)
-            .map(|(_, point)| self.cloud.normals()[point as usize])
+        search.nearest.nearest_to(&self.points, place).map(|(_, point)| self.cloud.normals()[point as usize])
     }
 
     fn plane(&self, place: Vec3, outward: Vec3, search: &mut Search) -> Option<Plane> {

@@ -2,7 +2,9 @@
 use super::plane::{Plane, corner_of, edge_of};
 use super::split::{Part, cut};
 use super::{Evidence, Limits, Search};
-use crate::data::{Cancelled, Monitor, SurfaceMesh, fill_in_blocks, sort_keyed};
+use crate::data::{
+    Cancelled, Monitor, SurfaceMesh, by_edge, edge_of_key, fill_in_blocks, opposite, sides_by_edge,
+};
 use crate::math::{Vec3, area_vector, barycentre};
 
 /// Vertices keep this distance from the sharp edge of their plane, in cells: triangles between the two are not too thin.
@@ -51,24 +53,15 @@ impl<'a> Creases<'a> {
             (Some(a), Some(b)) => a.normal.dot(b.normal) < limits.sharp,
             _ => false,
         };
-        let mut sides = Vec::new();
-        for (t, corners) in mesh.triangles.iter().enumerate() {
-            for k in 0..3 {
-                let (a, b) = (corners[k], corners[(k + 1) % 3]);
-                if differ(a, b) {
-                    sides.push((u64::from(a.min(b)) << 32 | u64::from(a.max(b)), (3 * t + k) as u32));
-                }
-            }
-        }
-        sort_keyed(&mut sides);
+        let sides = sides_by_edge(&mesh.triangles, |_, [a, b]| differ(a, b));
         let mut creases = Vec::new();
         let mut of_sides = vec![NONE; 3 * mesh.triangles.len()];
-        for pair in sides.chunk_by(|one, other| one.0 == other.0) {
+        for pair in by_edge(&sides) {
             let (key, side) = pair[0];
-            let opposite = |side: u32| mesh.triangles[side as usize / 3][(side as usize + 2) % 3];
+            let opposite = |side: u32| opposite(&mesh.triangles, side);
             let opposite = [Some(side), pair.get(1).map(|p| p.1)].map(|s| s.map_or(NONE, opposite));
             pair.iter().for_each(|(_, side)| of_sides[*side as usize] = creases.len() as u32);
-            creases.push(Crease { ends: [(key >> 32) as u32, key as u32], opposite });
+            creases.push(Crease { ends: edge_of_key(key), opposite });
         }
         let is_corner = |t: &u32| (0..3).all(|k| of_sides[3 * *t as usize + k] != NONE);
         let corners = (0..mesh.triangles.len() as u32).filter(is_corner).map(|t| (t, None)).collect();

@@ -1,7 +1,7 @@
 //! One chart of a mesh, with vertices of its own: those on seams are there once for each fan of its triangles around them.
 use super::faces::Faces;
 use super::segments::{NONE, Segments, grow, separate};
-use crate::data::{Sets, map_tasks};
+use crate::data::{Sets, map_tasks, next_side};
 use crate::math::Vec3;
 use rustc_hash::FxHashMap;
 
@@ -47,7 +47,6 @@ pub fn chart_of(faces: &Faces, of: Vec<u32>) -> Chart {
     let place: FxHashMap<u32, u32> = of.iter().copied().zip(0..).collect();
     let mut sets = Sets::new(3 * of.len());
     let mut rim_sides = Vec::new();
-    let next = |corner: u32| if corner % 3 == 2 { corner - 2 } else { corner + 1 };
     for (local, t) in (0u32..).zip(&of) {
         for k in 0..3 {
             let other = faces.joined[(3 * t + k) as usize];
@@ -56,8 +55,8 @@ pub fn chart_of(faces: &Faces, of: Vec<u32>) -> Chart {
                 // The two run along their edge in opposite directions.
                 Some(there) => {
                     let (one, other) = (3 * local + k, 3 * there + other % 3);
-                    sets.join(one, next(other));
-                    sets.join(next(one), other);
+                    sets.join(one, next_side(other));
+                    sets.join(next_side(one), other);
                 }
                 None => rim_sides.push(3 * local + k),
             }
@@ -76,7 +75,8 @@ pub fn chart_of(faces: &Faces, of: Vec<u32>) -> Chart {
             *number
         })
         .collect();
-    let rim = rim_sides.iter().map(|side| [corners[*side as usize], corners[next(*side) as usize]]).collect();
+    let rim =
+        rim_sides.iter().map(|side| [corners[*side as usize], corners[next_side(*side) as usize]]).collect();
     let triangles = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
     Chart { faces: of, positions, triangles, rim }
 }

@@ -1,5 +1,5 @@
 //! A closed mesh as its triangles see it: neighbours across sides, normals, areas.
-use crate::data::{LeftOut, SurfaceMesh, Topology, map_items};
+use crate::data::{LeftOut, SurfaceMesh, Topology, edge_between, ends, map_items};
 use crate::math::{Vec3, area_vector, barycentre};
 
 /// What segmentation looks at. Side 3t + k of triangle t runs from its corner k to the next.
@@ -21,9 +21,8 @@ impl<'a> Faces<'a> {
         let welded: Vec<u32> = (0..mesh.positions.len() as u32).collect();
         let mut joined = Topology::new(&mesh.triangles, &welded, LeftOut::Repeated).joined;
         for (side, other) in joined.iter_mut().enumerate() {
-            let t = mesh.triangles[side / 3];
-            let (a, b) = (t[side % 3], t[(side + 1) % 3]);
-            if seams.binary_search(&[a.min(b), a.max(b)]).is_ok() {
+            let [a, b] = ends(&mesh.triangles, side as u32);
+            if seams.binary_search(&edge_between(a, b)).is_ok() {
                 *other = Faces::NONE;
             }
         }

@@ -1,5 +1,5 @@
 //! Seams drawn by hand: the cheapest way along edges from one picked vertex to the next (Schier et al. 2018, section 6).
-use crate::data::SurfaceMesh;
+use crate::data::{SurfaceMesh, sorted_pairs};
 use crate::math::Vec3;
 use rustc_hash::FxHashSet;
 use std::cmp::Reverse;
@@ -94,7 +94,7 @@ impl Graph {
             .iter()
             .flat_map(|t| (0..3).flat_map(|k| [[t[k], t[(k + 1) % 3]], [t[(k + 1) % 3], t[k]]]))
             .collect();
-        pairs = crate::data::sorted_pairs(pairs);
+        pairs = sorted_pairs(pairs);
         pairs.dedup();
         let length = |[a, b]: [u32; 2]| mesh.positions[a as usize].distance(mesh.positions[b as usize]);
         let mean = pairs.iter().map(|p| length(*p)).sum::<f64>() / pairs.len().max(1) as f64;

@@ -1,6 +1,6 @@
 //! The charts of a proxy as the triangles of a soup are put into them.
 use crate::data::{Cancelled, Monitor, Shape, SurfaceMesh, TriangleSoup};
-use crate::distance::DistanceTree;
+use crate::distance::{Closest, DistanceTree};
 use crate::math::Vec2;
 use crate::texture::{Anchor, Atlas, Proxy};
 use rustc_hash::FxHashMap;
@@ -61,7 +61,7 @@ impl<'a> Charts<'a> {
             return *anchor;
         }
         let found = self.trees[chart as usize].as_ref().and_then(|tree| tree.closest(anchor.point));
-        let of_chart = |nearest: crate::distance::Closest| Anchor {
+        let of_chart = |nearest: Closest| Anchor {
             face: self.faces[chart as usize][nearest.element as usize],
             barycentric: nearest.barycentric,
             point: nearest.point,

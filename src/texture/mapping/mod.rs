@@ -118,6 +118,6 @@ fn report(anchors: &Anchors, affected: &Affected, distortion: Distortion, triang
         (WarningKind::WeakField, found.weak_field),
         (WarningKind::BadTexture, affected.bad()),
     ];
-    found.warnings = counts.into_iter().filter(|c| c.1 > 0).map(|(k, n)| Warning::new(k, n)).collect();
+    found.warnings = Warning::counted(counts);
     found
 }

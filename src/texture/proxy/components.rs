@@ -1,6 +1,6 @@
 //! The connected components of an isosurface, and which of them lie inside others.
 use crate::data::{Cancelled, Monitor, Sets, SurfaceMesh, TriangleSoup};
-use crate::math::Aabb;
+use crate::math::{Aabb, signed_volume};
 use crate::winding::{FieldConfig, WindingField};
 
 /// A surface taken apart.
@@ -54,10 +54,7 @@ pub fn keep_outer(mesh: SurfaceMesh, monitor: &dyn Monitor) -> Result<Pieces, Ca
 
 fn components(mesh: &SurfaceMesh) -> Vec<Component> {
     let mut sets = Sets::new(mesh.positions.len());
-    for [a, b, c] in &mesh.triangles {
-        sets.join(*a, *b);
-        sets.join(*a, *c);
-    }
+    mesh.triangles.iter().for_each(|corners| sets.join_all(*corners));
     let mut numbers = vec![u32::MAX; mesh.positions.len()];
     let mut found: Vec<Component> = Vec::new();
     for (t, corners) in (0..).zip(&mesh.triangles) {
@@ -67,14 +64,9 @@ fn components(mesh: &SurfaceMesh) -> Vec<Component> {
             found.push(Component { triangles: Vec::new(), bounds: Aabb::EMPTY, volume: 0.0 });
         }
         let component = &mut found[numbers[root] as usize];
-        // Subtracted before the product: stable far from the origin.
-        let anchor = mesh.positions[root];
         let places = corners.map(|v| mesh.positions[v as usize]);
-        let [a, b, c] = places.map(|p| p - anchor);
-        component.volume += a.dot(b.cross(c)) / 6.0;
-        let around = Aabb::around(places);
-        component.bounds.min = component.bounds.min.min(around.min);
-        component.bounds.max = component.bounds.max.max(around.max);
+        component.volume += signed_volume(places, mesh.positions[root]);
+        component.bounds = component.bounds.union(Aabb::around(places));
         component.triangles.push(t);
     }
     found

@@ -1,11 +1,11 @@
 //! Clusters of sources with their multipole moments, bottom-up over a [`Bvh`].
 use super::factors::factors;
-use super::local::sum_of_lanes;
 use super::moments::{COEFFICIENTS, Member, Moments};
 use super::{SourceKind, Sources};
 use crate::bvh::{Bvh, morton_code};
 use crate::data::{map_items, map_parts, set_each};
 use crate::math::{Aabb, Vec3, area_vector};
+use crate::treecode::expansion::sum_of_lanes;
 use crate::treecode::frame::Frame;
 use crate::treecode::links::{Link, link, spans};
 use std::f64::consts::PI;

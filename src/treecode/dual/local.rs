@@ -4,6 +4,7 @@ use super::derivatives::REDUCED;
 use super::harmonic::place;
 use super::octet::{Octet, parts};
 use crate::math::{Floats, Registers, Work, in_widest_registers};
+use crate::treecode::expansion::sum_of_lanes;
 use wide::f32x4;
 
 /// Highest degree.
@@ -189,12 +190,6 @@ impl Work for Values<'_> {
             _ => self.add::<R::Singles, 5>(),
         }
     }
-}
-
-/// The sum of four lanes, in f64.
-pub fn sum_of_lanes(lanes: f32x4) -> f64 {
-    let [a, b, c, d] = lanes.to_array().map(f64::from);
-    (a + b) + (c + d)
 }
 
 /// The sum of eight numbers.

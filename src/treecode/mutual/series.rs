@@ -3,6 +3,7 @@ use crate::bvh::Bvh;
 use crate::data::set_each;
 use crate::math::{Aabb, Vec3};
 use crate::treecode::links::{Link, link, spans};
+use crate::treecode::moments::PAIRS;
 use std::ops::Range;
 
 /// Clusters whose moments are one task.
@@ -135,5 +136,3 @@ impl Moments {
         }
     }
 }
-
-const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];

@@ -9,33 +9,25 @@ mod direct;
 mod interpolant;
 mod loops;
 mod need;
+mod plan;
 mod product;
 mod rows;
 
 use crate::data::Lattice;
 use crate::math::{Aabb, Floats, Nodes, Vec3, lebesgue};
-use curtains::{Grid, Region, Sums, all, away, box_of};
+use curtains::{Grid, Region, Sums, all, box_of};
 use direct::{Direct, by_direction, each_part, within_half_a_turn};
-use interpolant::{Interpolant, interpolation_error};
+use interpolant::Interpolant;
 use loops::{Loop, loops};
 use need::Allowance;
 pub use need::Need;
+use plan::{Plan, Separated};
 use wide::f64x4;
 
-/// Numbers of Chebyshev nodes along an axis to choose from.
-const NODES: [usize; 9] = [2, 3, 4, 6, 8, 10, 12, 14, 16];
 /// Axes with up to this many samples are not divided.
 const FEW: usize = 4;
-/// Costs of a sample or node, in those of an edge seen from it: of interpolation, for each node along an axis; of the
-/// arctangent.
-const INTERPOLATION_COST: f64 = 0.15;
-const ANGLE_COST: f64 = 10.0;
 /// What one size of block may take of the bound of the error that is left.
 const SHARE: f64 = 0.6;
-/// How often what is left of it is given to loops that need more than the others.
-const ROUNDS: usize = 3;
-/// What the chords of a loop cost, in edges: most of them are left out.
-const EDGES_OF_CHORD: f64 = 0.7;
 
 /// The loops of a closure.
 #[derive(Clone, Debug, Default)]
@@ -51,11 +43,6 @@ impl BoundaryField {
         let size = loops.iter().map(|l| l.bounds).fold(Aabb::EMPTY, Aabb::union).size().max_element();
         let unit = f64x4::splat(size).reciprocal_power_of_two().to_array()[0];
         BoundaryField { loops, unit }
-    }
-
-    /// Of a loop at a sample, in edges.
-    fn cost(&self, l: u32) -> f64 {
-        EDGES_OF_CHORD + self.loops[l as usize].edges() as f64
     }
 
     /// Bytes held.
@@ -93,28 +80,11 @@ struct Block<'a> {
     need: Need,
 }
 
-/// What is done with the loops of a region.
-struct Plan {
-    /// Nodes along each axis; none where the samples are no more.
-    nodes: [Option<usize>; 3],
-    loops: Separated,
-    cost: f64,
-}
-
-struct Separated {
-    far: Vec<u32>,
-    near: Vec<u32>,
-    /// Bound of the error of interpolating those that are far.
-    spent: f64,
-}
-
 impl Block<'_> {
     /// Adds the field of `loops` and of the interpolant of what has been summed already to a region.
     fn divide(&mut self, region: Region, loops: &[u32], from: Option<&Interpolant>, allowed: Allowance) {
         let grid: Grid = std::array::from_fn(|axis| self.grid[axis][region[axis].clone()].to_vec());
         let counts: [usize; 3] = std::array::from_fn(|axis| grid[axis].len());
-        let samples = counts.iter().product::<usize>() as f64;
-        let edges = |loops: &[u32]| -> f64 { loops.iter().map(|l| self.field.cost(*l)).sum() };
         let bounds = box_of(&self.grid, &region);
         let largest = |l: &u32| {
             let one = &self.field.loops[*l as usize];
@@ -130,35 +100,8 @@ impl Block<'_> {
                 return;
             }
         }
-        let mut plan: Option<Plan> = None;
-        if !loops.is_empty() {
-            let least = from.map_or([0; 3], |f| [0, 1, 2].map(|axis| f.nodes[axis].count()));
-            for count in NODES {
-                let nodes = counts.map(|c| (c > count).then_some(count));
-                let keeps = |axis: usize| nodes[axis].is_none_or(|n| n >= least[axis]);
-                if nodes == [None; 3] || !(0..3).all(keeps) {
-                    continue;
-                }
-                let loops = self.separate(loops, &bounds, nodes, SHARE * allowed.interpolation);
-                let (far, near) = (&loops.far, &loops.near);
-                let sums: f64 = (0..3).map(|a| nodes[a].unwrap_or(counts[a]) as f64).product();
-                // Of what is near some part will be far from the parts of the region.
-                let can_divide = counts.iter().any(|c| *c > 2 * FEW);
-                let rest = if near.is_empty() {
-                    0.0
-                } else {
-                    samples * (ANGLE_COST + if can_divide { 0.5 } else { 1.0 } * edges(near))
-                };
-                let interpolation =
-                    if far.is_empty() { 0.0 } else { INTERPOLATION_COST * count as f64 * samples };
-                let cost = sums * (edges(far) + ANGLE_COST) + rest + interpolation;
-                if plan.as_ref().is_none_or(|p| cost < p.cost) {
-                    plan = Some(Plan { nodes, loops, cost });
-                }
-            }
-        }
-        let direct = samples * (edges(loops) + ANGLE_COST);
-        let Some(plan) = plan.filter(|p| p.cost < direct) else {
+        let least = from.map_or([0; 3], |f| [0, 1, 2].map(|axis| f.nodes[axis].count()));
+        let Some(plan) = self.field.plan(loops, counts, least, &bounds, SHARE * allowed.interpolation) else {
             self.add_interpolant(&region, &grid, from);
             self.add_directly(&region, &grid, loops, allowed.rounding);
             return;
@@ -173,34 +116,6 @@ impl Block<'_> {
         } else {
             each_part(&region, FEW, |part| self.divide(part, near, from, rest));
         }
-    }
-
-    /// Loops that can be interpolated within a bound of the error, as many edges as possible, and the others; with the bound
-    /// of what that takes.
-    fn separate(&self, loops: &[u32], bounds: &Aabb, nodes: [Option<usize>; 3], most: f64) -> Separated {
-        let error = |l: &u32| {
-            let one = &self.field.loops[*l as usize];
-            if away(bounds, &one.bounds).is_none() {
-                return f64::INFINITY;
-            }
-            interpolation_error(one.area, &one.bounds, bounds, nodes)
-        };
-        let mut near: Vec<(u32, f64)> = loops.iter().map(|l| (*l, error(l))).collect();
-        let (mut far, mut spent) = (Vec::new(), 0.0);
-        // Each edge may take the same, and what is left is for those that need more.
-        for _ in 0..ROUNDS {
-            let per_edge = (most - spent) / near.iter().map(|(l, _)| self.field.cost(*l)).sum::<f64>();
-            near.retain(|(l, error)| {
-                let is_far = *error <= per_edge * self.field.cost(*l);
-                if is_far {
-                    spent += error;
-                    far.push(*l);
-                }
-                !is_far
-            });
-        }
-        far.sort_unstable();
-        Separated { far, near: near.into_iter().map(|(l, _)| l).collect(), spent }
     }
 
     /// The sum of an interpolant and of the loops that are far, at the nodes of a plan; none if there are no such loops.

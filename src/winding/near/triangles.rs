@@ -3,12 +3,13 @@
 use super::angles::Angles;
 use super::dipoles::{Dipole, add_fields};
 use super::solid_angles::{NearTriangle, Sides, TRIANGLE_ROUNDING, add_precisely};
-use super::{GROUP, LANES, single};
+use super::{GROUP, single};
 use crate::data::BLOCK;
 use crate::math::{Registers, Vec3, Work, area_vector, in_widest_registers, perturbed_side_of_plane};
 use crate::treecode::{
     GROUPS, Kernel, Lanes, NearLeaf, Octet, QueryBlock, SourceKind, Sources, groups_of, parts,
 };
+use crate::winding::angle_product::with_signs;
 use crate::winding::triangles::Triangles;
 use std::f64::consts::PI;
 use wide::f64x4;
@@ -24,14 +25,11 @@ impl Sides for AsCrossings {
         if !self.is_fraction {
             return numerators;
         }
-        let mut parts = numerators.to_array();
-        for k in (0..LANES).filter(|k| open >> k & 1 == 1) {
+        with_signs(numerators, open, |k| {
             let q = Vec3::from_array([0, 1, 2].map(|axis| queries[axis].to_array()[k]));
             // Seen from the side to which the normal points the solid angle is negative.
-            let side = -f64::from(perturbed_side_of_plane(q, *corners));
-            parts[k] = side * parts[k].abs().max(f64::MIN_POSITIVE);
-        }
-        f64x4::from(parts)
+            -f64::from(perturbed_side_of_plane(q, *corners))
+        })
     }
 }
 

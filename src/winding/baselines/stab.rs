@@ -1,12 +1,11 @@
 //! Inside by ray stabbing on a lattice, as programs that voxelize do: rays along its rows, which many samples share (the first
 //! method of Pimentel, Scrivener & To 2022, without its rays that hit edges).
-use super::FieldError;
-use super::closure::Closure;
-use super::facets::Facets;
-use super::lattice::{byte_of, for_each_slab};
-use super::scan::{SLAB_PLANES, Scan, Slab};
-use crate::data::{Lattice, Monitor, TriangleSoup, set_each, zeroed};
+use crate::data::{Lattice, Monitor, TriangleSoup, bit, byte_of, set_each, zeroed};
 use crate::math::Vec3;
+use crate::winding::FieldError;
+use crate::winding::closure::Closure;
+use crate::winding::facets::Facets;
+use crate::winding::scan::{SLAB_PLANES, Scan, Slab, for_each_slab};
 
 /// What makes a sample inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,13 +63,13 @@ pub fn stab_lattice(
     let others = [y?, z?];
     let mut bits = zeroed::<u8>(along_x.len())?;
     set_each(&mut bits, BYTES_PER_TASK, |place, byte| {
-        let votes = |bit: usize| {
-            let index = 8 * place + bit;
+        let votes = |k: usize| {
+            let index = 8 * place + k;
             let sample = lattice.sample(index.min(lattice.len() - 1));
-            let mut votes = i32::from(along_x[place] >> bit & 1);
+            let mut votes = i32::from(along_x[place] >> k & 1);
             for (axis, lattice, bits) in &others {
                 let index = lattice.index([0, 1, 2].map(|k| sample[(k + axis) % 3]));
-                votes += i32::from(bits[index / 8] >> (index % 8) & 1);
+                votes += i32::from(bit(bits, index));
             }
             index < lattice.len() && votes >= 2
         };

@@ -6,7 +6,7 @@ use super::frame::Frame;
 use super::kernel::{Kernel, Quadrature};
 use super::moments::Moments;
 use crate::bvh::{Bvh, Child, Stack, WIDTH};
-use crate::data::{BLOCK, map_items, set_each};
+use crate::data::{BLOCK, map_items, ones, set_each};
 use crate::math::{Aabb, Vec3};
 use wide::{f32x4, f64x4};
 
@@ -65,14 +65,6 @@ struct Block {
 /// Up to this many queries of a block are taken one by one, against the four children of a node at once; more of them
 /// four at a time, against one child after the other. A quarter of the block: where both cost the same.
 const FEW: u32 = 16;
-
-fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lowest = (mask != 0).then(|| mask.trailing_zeros() as usize);
-        mask &= mask.wrapping_sub(1);
-        lowest
-    })
-}
 
 impl Block {
     fn new(queries: &[Vec3], frame: &Frame) -> Block {
@@ -147,7 +139,7 @@ impl<K: Kernel> Tree<K> {
             let expansion = &self.expansions[node];
             let mut below = [0; WIDTH];
             if wanted.count_ones() <= FEW {
-                for i in bits(wanted) {
+                for i in ones(wanted) {
                     let (field, is_far) = expansion.far_field(&block.singly[i], order, beta_squared);
                     far_singly[i] += field;
                     below
@@ -166,7 +158,7 @@ impl<K: Kernel> Tree<K> {
             ((0..WIDTH).fold(0, |open, k| open | u32::from(below[k] != 0) << k), below)
         };
         let leaf = |node: usize, child: usize, wanted: u64| {
-            for i in bits(wanted) {
+            for i in ones(wanted) {
                 let lanes = queries[i].to_array().map(f64x4::splat);
                 self.leaf(node, child).iter().for_each(|block| K::add(&mut near[i], block, &lanes));
             }

@@ -8,13 +8,13 @@
 //!
 //! Exact, and fast where the pieces hold together; a soup of loose triangles, whose boundary is as large as itself, costs
 //! as much as the direct sum. It is the baseline of Barill et al. 2018 (fig. 10, section 3.3).
-use super::FieldError;
-use super::chain::weld;
-use super::triangles::{TriangleBlock, Triangles};
 use crate::bvh::{Bvh, Child, Stack, WIDTH};
 use crate::data::{Monitor, TriangleSoup, fill_in_blocks, map_items, set_each, zeroed};
 use crate::math::{Aabb, Vec3};
 use crate::treecode::{Kernel, Lanes};
+use crate::winding::FieldError;
+use crate::winding::chain::weld;
+use crate::winding::triangles::{TriangleBlock, Triangles};
 use std::cmp::Ordering;
 use std::ops::Range;
 use wide::f64x4;
@@ -59,7 +59,7 @@ impl ExactHierarchy {
         ExactHierarchy { bvh, whole, stands, leaves, blocks }
     }
 
-    /// The winding number at `q`, equal to that of [`super::winding_of_soup`] up to rounding. NaN where `q` is not finite.
+    /// The winding number at `q`, equal to that of [`crate::winding::winding_of_soup`] up to rounding. NaN where `q` is not finite.
     pub fn at(&self, q: Vec3) -> f64 {
         self.at_with(q, &mut Stack::new())
     }

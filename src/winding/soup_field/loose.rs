@@ -1,11 +1,11 @@
 //! Soups with loose components at many points: crossings for what is closed, and the dual tree for the rest.
-use super::config::FieldError;
-use super::many::{InsideTest, Many};
-use super::scan::{SLAB_PLANES, Scan, Slab};
-use super::soup_field::{SoupField, TIE};
+use super::{SoupField, TIE};
 use crate::data::{Cancelled, Lattice, Monitor, map_items, map_tasks, set_bit, zeroed};
 use crate::math::Vec3;
 use crate::treecode::{DualAccuracy, LatticeTargets, PointTargets};
+use crate::winding::config::FieldError;
+use crate::winding::many::{InsideTest, Many};
+use crate::winding::scan::{SLAB_PLANES, Scan, Slab};
 
 /// Samples whose crossings are held at once, about.
 const SAMPLES_AT_ONCE: usize = 1 << 21;
@@ -30,7 +30,7 @@ impl Part {
 
 impl SoupField {
     /// Winding numbers at many points: the sources of the fraction by the dual tree.
-    pub(super) fn many_values(
+    pub fn many_values(
         &self,
         many: &Many,
         points: &[Vec3],
@@ -47,7 +47,7 @@ impl SoupField {
     }
 
     /// Whether w ≥ `threshold` at many points.
-    pub(super) fn many_inside(
+    pub fn many_inside(
         &self,
         many: &Many,
         points: &[Vec3],
@@ -96,7 +96,7 @@ impl SoupField {
     }
 
     /// One bit for each sample, set where w ≥ `threshold`.
-    pub(super) fn many_bits(
+    pub fn many_bits(
         &self,
         many: &Many,
         lattice: &Lattice,

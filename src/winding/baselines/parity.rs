@@ -3,10 +3,10 @@
 //!
 //! Right off a closed surface without overlaps. Elsewhere it is wrong along whole rays: behind a hole, and where parts
 //! overlap or come twice; orientation does not matter to it.
-use super::FieldError;
 use crate::bvh::{Bvh, Child, Stack, WIDTH};
 use crate::data::{Monitor, TriangleSoup, fill_in_blocks, zeroed};
-use crate::math::{Aabb, Vec3};
+use crate::math::{Aabb, Random, Vec3};
+use crate::winding::FieldError;
 
 /// Which rays are asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,8 +39,8 @@ impl RayParity {
         let rays = match rays {
             Rays::Axis => vec![Ray { forward: Vec3::X, aside: Vec3::Y, up: Vec3::Z }],
             Rays::Majority { count, seed } => {
-                let mut state = seed;
-                (0..count).map(|_| Ray::towards(random_direction(&mut state))).collect()
+                let mut random = Random::new(seed);
+                (0..count).map(|_| Ray::towards(random_direction(&mut random))).collect()
             }
         };
         RayParity { bvh, triangles, rays }
@@ -138,16 +138,10 @@ fn passes_aside(a: [f64; 2], b: [f64; 2]) -> bool {
     low[1] <= 0.0 && high[1] > 0.0 && low[0] * high[1] - low[1] * high[0] > 0.0
 }
 
-/// A unit vector, evenly distributed: two steps of SplitMix64 (Steele et al. 2014) and Archimedes' cylinder.
-fn random_direction(state: &mut u64) -> Vec3 {
-    let mut unit = || {
-        *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    };
-    let z = 2.0 * unit() - 1.0;
-    let angle = std::f64::consts::TAU * unit();
+/// A unit vector, evenly distributed (Archimedes' cylinder).
+fn random_direction(random: &mut Random) -> Vec3 {
+    let z = 2.0 * random.below_one() - 1.0;
+    let angle = std::f64::consts::TAU * random.below_one();
     let radius = (1.0 - z * z).sqrt();
     Vec3::new(radius * libm::cos(angle), radius * libm::sin(angle), z)
 }

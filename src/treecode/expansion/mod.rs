@@ -106,6 +106,7 @@ impl Remainder {
     }
 }
 
+/// The sum of four lanes, in f64.
 pub(super) fn sum_of_lanes(lanes: f32x4) -> f64 {
     let [a, b, c, d] = lanes.to_array().map(f64::from);
     (a + b) + (c + d)

@@ -2,13 +2,14 @@
 //!
 //! Over a block of cells that no cap comes near, the fraction −w_C is smooth; over one that no triangle of the surface
 //! comes near, w itself is, whatever caps there are. Either is known all through the block from its exact value in the
-//! middle and a bound of its variation (see [`super::variation`]). Blocks are halved until that decides.
-use super::curtain::LANES;
-use super::locate::{FIRST_KNOWN, Locator};
-use super::soup_field::{HALF, SoupField};
-use super::variation::BoundaryEdges;
+//! middle and a bound of its variation (see [`crate::winding::variation`]). Blocks are halved until that decides.
+use super::SoupField;
 use crate::data::map_tasks;
 use crate::math::Vec3;
+use crate::winding::THRESHOLD;
+use crate::winding::curtain::LANES;
+use crate::winding::locate::{FIRST_KNOWN, Locator};
+use crate::winding::variation::BoundaryEdges;
 
 /// Cells along a side of the blocks with which division begins.
 const TOP: usize = 32;
@@ -119,7 +120,7 @@ impl Division<'_> {
         let slack = block.variation + ROUNDING;
         if !block.has_caps {
             let fraction = fraction - f64::from(self.field.cap_crossings(block.middle));
-            let least = |fraction: f64| (HALF - fraction).ceil();
+            let least = |fraction: f64| (THRESHOLD - fraction).ceil();
             let (low, high) = (least(fraction + slack), least(fraction - slack));
             if low != high || !LEAST.contains(&low) {
                 return false;
@@ -139,10 +140,10 @@ impl Division<'_> {
         }
         let crossings = self.locator.locate(self.field.facets(), block.middle, false).crossings;
         let w = f64::from(crossings) + fraction;
-        if (w - HALF).abs() <= slack {
+        if (w - THRESHOLD).abs() <= slack {
             return false;
         }
-        let code = if w > HALF { INSIDE } else { OUTSIDE };
+        let code = if w > THRESHOLD { INSIDE } else { OUTSIDE };
         self.set(block.first, side, |_| code);
         true
     }

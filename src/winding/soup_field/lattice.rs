@@ -1,25 +1,22 @@
 //! The field of a soup on a lattice: crossings slab by slab, the fraction where it matters.
-use super::boundary::Need;
-use super::config::FieldError;
-use super::curtain::LANES;
-use super::many::Many;
-use super::scan::{SLAB_PLANES, Scan, Slab};
-use super::soup_field::{FractionBy, SoupField, TIE};
+use super::boxes::{Box3, cover};
+use super::{FractionBy, SoupField, TIE};
 use crate::data::{
-    Cancelled, Lattice, Monitor, Parts, for_each_lattice_block, map_items, map_parts, map_tasks, set_bit,
+    Cancelled, Lattice, Monitor, Parts, byte_of, for_each_lattice_block, map_items, map_tasks, set_bit,
     zeroed,
 };
 use crate::math::Vec3;
 use crate::treecode::{DualAccuracy, LatticeTargets, Scratch};
+use crate::winding::boundary::Need;
+use crate::winding::config::FieldError;
+use crate::winding::curtain::LANES;
+use crate::winding::many::Many;
+use crate::winding::scan::{SLAB_PLANES, Scan, Slab, for_each_slab};
 use std::ops::Range;
 
 /// Planes that are classified together are a whole number of slabs and of blocks; as many as this memory for them allows.
 const GROUP_PLANES: usize = 32;
 const BYTES_OF_GROUP: usize = 17_000_000;
-/// Slabs between two reports to the monitor, all in memory at once: fewer where they would take more than
-/// [`BYTES_AT_ONCE`], down to the lower number.
-const SLABS_PER_REPORT: [usize; 2] = [4, 16];
-const BYTES_AT_ONCE: usize = 34_000_000;
 /// Most samples along each axis of a block of fractions.
 const TOP: usize = 32;
 const BLOCKS_PER_REPORT: usize = 32;
@@ -28,15 +25,12 @@ const BLOCKS_PER_REPORT: usize = 32;
 const CLASSIFICATION_ERRORS: [f64; 2] = [1e-2, 1e-5];
 /// So few samples of a block need no boxes.
 const FEW_SUMS: usize = 64;
-/// Samples of a box for each that is open, at most; and how many of these it takes.
-const MOST_OF_BOX: usize = 6;
-const FEW_IN_BOX: usize = 32;
 /// Crossings beyond this are not told apart.
 const MOST_CROSSINGS: f64 = 32_000.0;
 
 impl SoupField {
     /// Winding numbers at every sample, to a tolerance; with `loose_by` the fraction is left to that.
-    pub(super) fn lattice_values(
+    pub fn lattice_values(
         &self,
         lattice: &Lattice,
         tolerance: f64,
@@ -122,7 +116,7 @@ impl SoupField {
     }
 
     /// One bit for each sample, set where w ≥ `threshold`; proven, of a soup without loose components.
-    pub(super) fn lattice_bits(
+    pub fn lattice_bits(
         &self,
         lattice: &Lattice,
         threshold: f64,
@@ -140,7 +134,7 @@ impl SoupField {
     }
 
     /// [`SoupField::lattice_bits`], handed to `store` some planes at a time, with the first of them, which is a multiple of eight.
-    pub(super) fn for_each_group_of_planes(
+    pub fn for_each_group_of_planes(
         &self,
         lattice: &Lattice,
         threshold: f64,
@@ -290,54 +284,6 @@ fn groups_of(lattice: &Lattice, size: usize) -> impl Iterator<Item = Range<usize
     (0..count).step_by(size).map(move |start| start..count.min(start + size))
 }
 
-/// Up to eight bits, lowest first.
-pub(super) fn byte_of(bits: impl DoubleEndedIterator<Item = bool>) -> u8 {
-    bits.rev().fold(0, |byte, bit| byte << 1 | u8::from(bit))
-}
-
-type Sample = [usize; 3];
-
-/// Samples from a corner to before another, x fastest.
-struct Box3 {
-    low: Sample,
-    high: Sample,
-}
-
-impl Box3 {
-    fn counts(&self) -> [usize; 3] {
-        std::array::from_fn(|axis| self.high[axis] - self.low[axis])
-    }
-
-    fn place(&self, [i, j, k]: Sample) -> usize {
-        let [nx, ny, _] = self.counts();
-        ((k - self.low[2]) * ny + (j - self.low[1])) * nx + i - self.low[0]
-    }
-
-    fn sample(&self, place: usize) -> Sample {
-        let [nx, ny, _] = self.counts();
-        [self.low[0] + place % nx, self.low[1] + place / nx % ny, self.low[2] + place / (nx * ny)]
-    }
-}
-
-/// Covers samples by boxes of which a good part is samples, but for few that are not worth a box.
-fn cover(samples: Vec<Sample>, boxes: &mut Vec<(Box3, Vec<Sample>)>, singly: &mut Vec<Sample>) {
-    if samples.len() < FEW_IN_BOX {
-        return singly.extend(samples);
-    }
-    let low = samples.iter().fold([usize::MAX; 3], |low, s| std::array::from_fn(|a| low[a].min(s[a])));
-    let high = samples.iter().fold([0; 3], |high, s| std::array::from_fn(|a| high[a].max(s[a] + 1)));
-    let one = Box3 { low, high };
-    let counts = one.counts();
-    if counts.iter().product::<usize>() <= MOST_OF_BOX * samples.len() {
-        return boxes.push((one, samples));
-    }
-    let axis = (0..3).max_by_key(|axis| counts[*axis]).expect("there are three");
-    let middle = low[axis] + counts[axis] / 2;
-    let (before, behind) = samples.into_iter().partition(|s| s[axis] < middle);
-    cover(before, boxes, singly);
-    cover(behind, boxes, singly);
-}
-
 /// The least integer that reaches a threshold together with a fraction.
 fn least_integer(threshold: f64, fraction: f64) -> i16 {
     // Rounded up; exact, and cheaper than a call where a processor has no instruction for it.
@@ -349,34 +295,4 @@ fn least_integer(threshold: f64, fraction: f64) -> i16 {
 fn extremes(values: &[f64]) -> (f64, f64) {
     let both = |(least, most): (f64, f64), v: &f64| (least.min(*v), most.max(*v));
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), both)
-}
-
-/// Counts the crossings of every slab, in parallel, and hands them with the slab's part of `output`, `per_plane` items for
-/// each sample of a plane, to `fill`; gives what `fill` has found, in order.
-pub(super) fn for_each_slab<T: Send, R: Send>(
-    scan: &Scan,
-    planes: Range<usize>,
-    output: &mut [T],
-    per_plane: usize,
-    fill: impl Fn(usize, &Slab, &mut [T]) -> Vec<R> + Sync,
-    stage: &str,
-    monitor: &dyn Monitor,
-) -> Result<Vec<R>, Cancelled> {
-    let part = (scan.samples_of_plane() * per_plane).max(1);
-    let [fewest, most] = SLABS_PER_REPORT;
-    let bytes = size_of::<i32>() * SLAB_PLANES * scan.samples_of_plane().max(1);
-    let at_once = (BYTES_AT_ONCE / bytes).clamp(fewest, most);
-    let mut found = Vec::new();
-    for (run, parts) in output.chunks_mut(at_once * part).enumerate() {
-        let first = planes.start / SLAB_PLANES + run * at_once;
-        monitor.report(first as f64 / scan.slabs() as f64, stage)?;
-        let of_run = map_parts(parts, part, |slab, part| {
-            let mut counted = Slab::default();
-            scan.count(first + slab, &mut counted);
-            fill(first + slab, &counted, part)
-        });
-        found.extend(of_run.into_iter().flatten());
-    }
-    monitor.report(1.0, stage)?;
-    Ok(found)
 }

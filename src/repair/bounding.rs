@@ -1,14 +1,13 @@
 //! Which triangles of a closed soup bound the inside: those with w ≥ 1/2 behind and w < 1/2 in front.
 use super::RepairReport;
-use super::edges::{edges, sides_by_edge};
+use super::edges::sides_with_length;
 use super::faces::{Faces, NEW};
-use crate::data::{Monitor, Sets};
-use crate::math::{Vec3, barycentre, side_of_plane};
-use crate::winding::{Accuracy, FieldError, WindingField};
+use crate::data::{Monitor, Sets, by_edge, sorted, turn_alike};
+use crate::math::{Vec3, area_vector, barycentre, side_of_plane};
+use crate::winding::{Accuracy, FieldError, THRESHOLD, WindingField};
 
 /// Triangles of a patch that are asked: the largest ones, as next to slivers rounding may take one side for the other.
 const ASKED: usize = 5;
-const HALF: f64 = 0.5;
 
 /// Pieces with the same corners, taken as one.
 struct Sheet {
@@ -47,9 +46,9 @@ pub fn bounding(
                 .map(|piece| behind(faces, pieces, sheet, piece.1, *q))
                 .sum::<f64>();
         let back = before + f64::from(sheet.copies);
-        let answer = if before >= HALF {
+        let answer = if before >= THRESHOLD {
             1
-        } else if back >= HALF {
+        } else if back >= THRESHOLD {
             0
         } else {
             2
@@ -62,7 +61,7 @@ pub fn bounding(
         let [bounds, within, without] = votes[patches[s] as usize];
         if bounds >= within.max(without) {
             let own = order[sheet.pieces.clone()].iter().map(|piece| piece.1);
-            let same = own.clone().find(|p| is_same_way(pieces.triangles[*p as usize], sheet.triangle));
+            let same = own.clone().find(|p| turn_alike(pieces.triangles[*p as usize], sheet.triangle));
             let piece = same.unwrap_or(order[sheet.pieces.start].1);
             found.push((
                 if same.is_some() { pieces.triangles[piece as usize] } else { sheet.triangle },
@@ -93,7 +92,7 @@ fn sheets_of(pieces: &Faces, order: &[([u32; 3], u32)], report: &mut RepairRepor
     let mut first = 0;
     for same in order.chunk_by(|one, other| one.0 == other.0) {
         let triangle = pieces.triangles[same[0].1 as usize];
-        let turn = |piece: u32| if is_same_way(pieces.triangles[piece as usize], triangle) { 1 } else { -1 };
+        let turn = |piece: u32| if turn_alike(pieces.triangles[piece as usize], triangle) { 1 } else { -1 };
         let copies: i32 = same.iter().map(|(_, piece)| turn(*piece)).sum();
         let [a, b, c] = triangle;
         if copies == 0 {
@@ -111,21 +110,20 @@ fn sheets_of(pieces: &Faces, order: &[([u32; 3], u32)], report: &mut RepairRepor
 /// Of each sheet, the least one of its patch.
 fn patches_of(sheets: &[Sheet]) -> Vec<u32> {
     let triangles: Vec<[u32; 3]> = sheets.iter().map(|sheet| sheet.triangle).collect();
-    let sides = sides_by_edge(&triangles);
+    let sides = sides_with_length(&triangles);
     let mut sets = Sets::new(sheets.len());
-    for pair in edges(&sides).filter(|sides| sides.len() == 2) {
+    for pair in by_edge(&sides).filter(|sides| sides.len() == 2) {
         let [one, other] = [pair[0].1 / 3, pair[1].1 / 3];
         if sheets[one as usize].copies == sheets[other as usize].copies {
             sets.join(one, other);
         }
     }
-    (0..sheets.len() as u32).map(|s| sets.find(s)).collect()
+    sets.into_least()
 }
 
 fn weight(pieces: &Faces, sheet: &Sheet) -> f64 {
     // Above zero, so that a patch without area has an answer too.
-    crate::math::area_vector(sheet.triangle.map(|v| pieces.positions[v as usize])).length()
-        + f64::MIN_POSITIVE
+    area_vector(sheet.triangle.map(|v| pieces.positions[v as usize])).length() + f64::MIN_POSITIVE
 }
 
 /// The largest sheets of each patch.
@@ -140,17 +138,7 @@ fn largest_of(pieces: &Faces, sheets: &[Sheet], patches: &[u32]) -> Vec<usize> {
 
 /// What w falls by on the way from `q` through the triangle of a piece to the front of its sheet, if q is not there.
 fn behind(faces: &Faces, pieces: &Faces, sheet: &Sheet, piece: u32, q: Vec3) -> f64 {
-    let turn = if is_same_way(pieces.triangles[piece as usize], sheet.triangle) { 1 } else { -1 };
+    let turn = if turn_alike(pieces.triangles[piece as usize], sheet.triangle) { 1 } else { -1 };
     let side = turn * side_of_plane(q, faces.corners(pieces.sources[piece as usize] as usize));
     f64::from(turn) * 0.5 * f64::from(1 - side)
-}
-
-fn sorted(mut triangle: [u32; 3]) -> [u32; 3] {
-    triangle.sort_unstable();
-    triangle
-}
-
-/// Whether two triangles with the same corners turn the same way.
-fn is_same_way([a, b, c]: [u32; 3], other: [u32; 3]) -> bool {
-    [[a, b, c], [b, c, a], [c, a, b]].contains(&other)
 }
