@@ -417,6 +417,15 @@ fn copies_of_a_triangle_share_its_charge() {
     }
 }
 
+/// The system of two copies has one direction only: what a solver goes on with after that is rounding.
+#[test]
+fn copies_are_charged_however_small_the_tolerance() {
+    let triangle = [Vec3::X, Vec3::new(3.0, 1.0, 3.0), Vec3::ZERO];
+    let field = solve(loose(&[triangle; 2]), &ChargeConfig { tolerance: 2e-16, ..as_is() });
+    let sum: f64 = field.charges().iter().sum();
+    assert!((sum - 1.0).abs() < 1e-12 && field.report().deviation < 1e-12, "{sum}, {:?}", field.report());
+}
+
 /// Between concentric spheres of radii 1 and 2 with charges ±1 the field is 1/r², and beyond them 0. The spheres' potentials
 /// are ±1 by the choice of the scale: V₁ = q + Q/2 = v, V₂ = (q + Q)/2 = −v, so that q = 4v, Q = −6v.
 #[test]
