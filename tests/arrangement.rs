@@ -263,6 +263,20 @@ fn equal_and_degenerate_triangles_are_no_trouble() {
     arrange(positions, &triangles, Pairs::All, &Silent).unwrap();
 }
 
+/// Products of three lengths are 0 at that scale; a power of two changes no other digit.
+#[test]
+fn tiny_triangles_are_cut_as_large_ones_are() {
+    let mut random = Random::of_round(9, 0);
+    let faces: Vec<[Vec3; 3]> = (0..20).map(|_| [(); 3].map(|()| random.on_grid(4) + 1e7)).collect();
+    let (_, _, expected) = arranged(&faces, Pairs::All);
+    assert!(expected.unresolved == 0 && expected.pieces.len() > 100);
+    let scale = 2f64.powi(-531);
+    let tiny: Vec<[Vec3; 3]> = faces.iter().map(|face| face.map(|p| scale * p)).collect();
+    let (_, _, found) = arranged(&tiny, Pairs::All);
+    let positions = expected.positions.iter().map(|p| scale * *p).collect();
+    assert_eq!(found, Arrangement { positions, ..expected });
+}
+
 #[test]
 fn a_monitor_can_cancel() {
     let (positions, triangles) = welded(&faces_of(&sphere(4)));

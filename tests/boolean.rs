@@ -218,6 +218,27 @@ fn operands_that_cross_themselves_are_resolved() {
     }
 }
 
+/// Two boxes of one operand have faces of one plane; turned, these are some roundings apart.
+#[test]
+fn parts_with_nearly_coplanar_faces_are_resolved() {
+    let upright = |min: Vec3, max: Vec3| cuboid(Aabb { min, max });
+    let a = upright(Vec3::Z, Vec3::new(1.0, 2.0, 3.0));
+    let parts = [
+        upright(Vec3::new(0.0, 2.0, 0.0), Vec3::new(1.0, 3.0, 2.0)),
+        upright(Vec3::new(0.0, 2.0, 1.0), Vec3::new(3.0, 3.0, 2.0)),
+    ];
+    let turn = Mat3::from_axis_angle(Vec3::new(1.0, 2.0, 3.0).normalize(), 0.3);
+    let b = moved(&joined(&parts), turn, Vec3::ZERO);
+    let [u, i, d] = [UNION, INTERSECTION, DIFFERENCE].map(|op| {
+        let mesh = combined(&a, op, &b);
+        assert_eq!(open_edges(&mesh), 0, "{op:?} {:?}", mesh.warnings);
+        volume_of(&mesh)
+    });
+    // The boxes of 2 and 3 have 1 in common.
+    let (of_a, of_b) = (4.0, 2.0 + 3.0 - 1.0);
+    assert!((u + i - of_a - of_b).abs() < 1e-8 && (d + i - of_a).abs() < 1e-8, "{u} {i} {d}");
+}
+
 #[test]
 fn bad_options_and_doubtful_scales_are_told() {
     let (a, b) = (cube(1.0), cube(1000.0));

@@ -184,6 +184,24 @@ fn charge_is_conserved_and_has_the_sign_asked_for() {
     }
 }
 
+/// Moments of large and of small charges are none in 32-bit floats.
+#[test]
+fn the_field_is_in_proportion_to_the_charge() {
+    let points: Vec<Vec3> = (0..50).map(|k| 0.06 * f64::from(k) * Vec3::new(1.0, 0.3, -0.7)).collect();
+    let of = |total: f64| {
+        let field = solve(sphere(3), &ChargeConfig { total, ..as_is() });
+        (field.potential(&points), field.field(&points))
+    };
+    let (potentials, fields) = of(1.0);
+    for total in [1e60, -1e-60] {
+        let (found, directions) = of(total);
+        let pairs = potentials.iter().zip(found);
+        pairs.for_each(|(one, all)| assert!((all / total - one).abs() <= 1e-14 * one.abs(), "{one} {all}"));
+        let pairs = fields.iter().zip(directions);
+        pairs.for_each(|(one, all)| assert!((all / total).distance(*one) <= 1e-14 * one.length()));
+    }
+}
+
 #[test]
 fn the_field_by_the_tree_is_that_of_all_triangles() {
     let field = solve(scaled(&sphere(4), Vec3::new(30.0, 8.0, 3.0), Vec3::new(1e3, 0.0, -40.0)), &as_is());
@@ -397,6 +415,15 @@ fn copies_of_a_triangle_share_its_charge() {
             assert!((sum - once.charges()[t]).abs() < 1e-9, "{t}: {sum}");
         }
     }
+}
+
+/// The system of two copies has one direction only: what a solver goes on with after that is rounding.
+#[test]
+fn copies_are_charged_however_small_the_tolerance() {
+    let triangle = [Vec3::X, Vec3::new(3.0, 1.0, 3.0), Vec3::ZERO];
+    let field = solve(loose(&[triangle; 2]), &ChargeConfig { tolerance: 2e-16, ..as_is() });
+    let sum: f64 = field.charges().iter().sum();
+    assert!((sum - 1.0).abs() < 1e-12 && field.report().deviation < 1e-12, "{sum}, {:?}", field.report());
 }
 
 /// Between concentric spheres of radii 1 and 2 with charges ±1 the field is 1/r², and beyond them 0. The spheres' potentials

@@ -72,6 +72,8 @@ pub fn arrange(
     monitor: &dyn Monitor,
 ) -> Result<Arrangement, Cancelled> {
     let monitor = &Parts::new(monitor);
+    let enlargement = enlargement(&positions);
+    let positions: Vec<Vec3> = positions.into_iter().map(|p| p * enlargement).collect();
     monitor.begin(0.0, MEETING);
     monitor.report(0.0, "meeting triangles")?;
     let places = |t: usize| triangles[t].map(|v| positions[v as usize]);
@@ -104,7 +106,16 @@ pub fn arrange(
     monitor.begin(CUT, 1.0);
     found.coplanar.sort_unstable();
     work.share_cuts(&found.coplanar, monitor)?;
-    Ok(finish(work, degenerate))
+    Ok(finish(work, degenerate, enlargement))
+}
+
+/// A power of two that makes the largest coordinate 1 or more: products of three very small ones would be 0, and predicates wrong.
+fn enlargement(positions: &[Vec3]) -> f64 {
+    const ONE: u64 = 1f64.to_bits() >> MANTISSA;
+    const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
+    let largest = positions.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    let exponent = largest.to_bits() >> MANTISSA;
+    f64::from_bits((2 * ONE - exponent.min(ONE)) << MANTISSA)
 }
 
 /// Pairs of triangles whose boxes overlap.
@@ -192,7 +203,7 @@ fn start<'a>(positions: Vec<Vec3>, corners: &'a [[u32; 3]], found: &Contacts) ->
     }
 }
 
-fn finish(mut work: Work, degenerate: usize) -> Arrangement {
+fn finish(mut work: Work, degenerate: usize, enlargement: f64) -> Arrangement {
     let (mut pieces, mut sources) = (Vec::new(), Vec::new());
     for (t, corners) in work.corners.iter().enumerate() {
         match work.pieces.remove(&(t as u32)) {
@@ -210,7 +221,7 @@ fn finish(mut work: Work, degenerate: usize) -> Arrangement {
     seams.sort_unstable();
     seams.dedup();
     Arrangement {
-        positions: work.points.into_positions(),
+        positions: work.points.into_positions().into_iter().map(|p| p / enlargement).collect(),
         pieces,
         sources,
         seams,

@@ -40,7 +40,10 @@ pub struct ElectricField {
     of_elements: Vec<Series>,
     of_clusters: Vec<Series>,
     panels: Vec<Panel>,
+    /// Their sizes are 1 in all: 32-bit floats hold the series of any charge then.
     element_charges: Vec<f64>,
+    /// What these are to be multiplied by.
+    unit: f64,
     charges: Vec<f64>,
     report: ChargeReport,
 }
@@ -121,7 +124,9 @@ impl ElectricField {
         let is_of_soup = |pair: &(&f64, &f64)| *pair.1 > 0.0;
         let sum: f64 =
             solution.charges.iter().zip(&wanted).filter(is_of_soup).map(|(charge, _)| charge).sum();
-        let element_charges: Vec<f64> = solution.charges.iter().map(|q| q * (config.total / sum)).collect();
+        let sizes: f64 = solution.charges.iter().map(|charge| charge.abs()).sum();
+        let element_charges: Vec<f64> = solution.charges.iter().map(|charge| charge / sizes).collect();
+        let unit = config.total / (sum / sizes);
         // With the signs of one conductor: all are to be the same.
         let potentials = system.potentials(&element_charges);
         let potentials: Vec<f64> = potentials.iter().zip(&wanted).map(|(p, wanted)| p * wanted).collect();
@@ -135,10 +140,11 @@ impl ElectricField {
             steps: solution.steps,
             deviation,
             reached: deviation <= config.tolerance,
-            potential: elements.frame.scale * potentials.iter().sum::<f64>() / potentials.len() as f64,
+            potential: unit * elements.frame.scale * potentials.iter().sum::<f64>() / potentials.len() as f64,
         };
         let mut charges = vec![0.0; soup.len()];
-        elements.parents.iter().zip(&element_charges).for_each(|(t, charge)| charges[*t as usize] += charge);
+        let charged = elements.parents.iter().zip(&element_charges);
+        charged.for_each(|(t, charge)| charges[*t as usize] += unit * charge);
         Ok(ElectricField {
             of_elements: series_of_elements(&own, &element_charges),
             of_clusters: clusters.series(&elements, &own, &element_charges),
@@ -150,6 +156,7 @@ impl ElectricField {
             clusters,
             opening: config.opening,
             element_charges,
+            unit,
             charges,
             report,
         })
@@ -241,7 +248,7 @@ impl ElectricField {
 
     fn world(&self, (potential, field): Value) -> Value {
         let scale = self.elements.frame.scale;
-        (scale * potential, scale * scale * field)
+        (self.unit * scale * potential, self.unit * scale * scale * field)
     }
 }
 

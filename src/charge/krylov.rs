@@ -12,6 +12,8 @@ const RESTART: usize = 80;
 const MOST_STEPS: usize = 400;
 /// How much less the rms deviation has to be than the largest, at first.
 const RMS_SHARE: f64 = 0.25;
+/// A new direction smaller than this share of what it was made of is rounding: there is none left.
+const SPENT: f64 = 1e-14;
 /// A cluster's own potentials count as larger by this share: copies of a triangle would make its matrix singular.
 const SHIFT: f64 = 1e-3;
 
@@ -43,7 +45,7 @@ pub fn solve(
             let signed: Vec<f64> = potentials.iter().zip(wanted).map(|(p, w)| p * w).collect();
             (potentials.iter().zip(wanted).map(|(p, w)| w - p).collect(), deviation(&signed).0)
         };
-        let is_stuck = steps > 0 && deviation > 0.5 * best;
+        let is_stuck = deviation > 0.5 * best;
         best = best.min(deviation);
         if deviation <= tolerance || steps >= MOST_STEPS || is_stuck || deviation.is_nan() {
             return Ok(Solution { charges, steps });
@@ -87,6 +89,7 @@ fn cycle(
         report(right[columns.len()].abs())?;
         let k = columns.len();
         let mut next = system.potentials(&inverse.apply(&basis[k]));
+        let least = SPENT * norm(&next);
         let mut column = Vec::with_capacity(k + 2);
         for vector in &basis {
             let along = dot(&next, vector);
@@ -100,7 +103,7 @@ fn cycle(
                 (cos * column[i] + sin * column[i + 1], cos * column[i + 1] - sin * column[i]);
         }
         let size = column[k].hypot(column[k + 1]);
-        if size == 0.0 || !size.is_finite() {
+        if size <= least || !size.is_finite() {
             break;
         }
         let (cos, sin) = (column[k] / size, column[k + 1] / size);
@@ -110,7 +113,7 @@ fn cycle(
         right.push(-sin * right[k]);
         right[k] *= cos;
         columns.push(column);
-        if length == 0.0 {
+        if length <= least {
             break;
         }
         basis.push(next.into_iter().map(|n| n / length).collect());

@@ -14,7 +14,9 @@ mod sides;
 
 pub use result::BooleanMesh;
 
-use crate::data::{Cancelled, LatticeError, Monitor, OutOfMemory, Parts, SoupError, Warning, WarningKind};
+use crate::data::{
+    Cancelled, LatticeError, Monitor, OutOfMemory, Parts, SoupError, Warning, WarningKind, edges,
+};
 use crate::levelset::TraceError;
 use crate::winding::{FieldError, WindingField};
 use operands::{Operand, Pieces};
@@ -215,7 +217,9 @@ fn trimmed(
 fn resolved(operands: &[Operand; 2], op: BooleanOp, monitor: &dyn Monitor) -> Result<Trimmed, BooleanError> {
     let monitor = &Parts::new(monitor);
     monitor.begin(0.0, 0.6);
-    let pieces = Pieces::cut(operands, true, monitor)?;
+    let mut pieces = Pieces::cut(operands, true, monitor)?;
+    // Regions end at every edge that more than two pieces have, whether anything is cut there or not.
+    pieces.seams.extend(pieces.corners.iter().flat_map(|corners| edges(*corners)));
     monitor.begin(0.6, 1.0);
     let fates = sides::keep(&pieces, operands, op, monitor)?;
     Ok(Trimmed { pieces, fates })

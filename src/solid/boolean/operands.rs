@@ -111,12 +111,15 @@ impl Pieces {
 /// Steps of the grid in the larger of the operands.
 const GRID: f64 = (1u64 << 36) as f64;
 
+pub fn largest_coordinate(operands: &[Operand; 2]) -> f64 {
+    let bounds = operands[0].field().bounds().union(operands[1].field().bounds());
+    bounds.min.abs().max(bounds.max.abs()).max_element()
+}
+
 /// The operands with their vertices moved to a common grid; new fields.
 pub fn snapped<'a>(operands: &[Operand; 2]) -> Result<[Operand<'a>; 2], SoupError> {
-    let bounds = operands[0].field().bounds().union(operands[1].field().bounds());
     // A power of two, so that multiples of it are exact.
-    let largest = bounds.min.abs().max(bounds.max.abs()).max_element().max(f64::MIN_POSITIVE);
-    let step = largest.log2().ceil().exp2() / GRID;
+    let step = largest_coordinate(operands).max(f64::MIN_POSITIVE).log2().ceil().exp2() / GRID;
     let snap = |operand: &Operand| {
         let soup = operand.soup();
         let positions = soup.positions().iter().map(|p| (*p / step).round() * step).collect();

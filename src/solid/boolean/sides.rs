@@ -1,5 +1,5 @@
 //! Which pieces bound the result: it is inside on one side of them only.
-use super::operands::{Operand, Pieces};
+use super::operands::{Operand, Pieces, largest_coordinate};
 use super::regions::{Regions, across_edges};
 use super::{BooleanError, BooleanOp};
 use crate::data::{Monitor, sorted};
@@ -15,10 +15,11 @@ pub enum Fate {
     Dropped,
 }
 
-/// How far from a piece its sides are looked at, in the radius of a circle in it.
+/// How far from a piece its sides are looked at, at most, in the radius of a circle in it.
 const OFF: f64 = 1e-6;
-/// And at least, in the largest coordinate.
-const LEAST: f64 = 1e-13;
+/// And in the largest coordinate: at most in that of the operands, at least in the piece's own. Far above rounding, and far below a step of
+/// the grid that vertices are moved to: what comes as near as that lies beyond.
+const OF_COORDINATE: f64 = 1e-13;
 
 /// What becomes of each piece of operands that are cut along themselves too: of those in one place one stays.
 pub fn keep(
@@ -47,8 +48,9 @@ pub fn fates(
     asked: &[usize],
     monitor: &dyn Monitor,
 ) -> Result<Vec<Fate>, BooleanError> {
+    let most = OF_COORDINATE * largest_coordinate(operands);
     let points: Vec<Vec3> =
-        asked.iter().flat_map(|r| both_sides(pieces.places(regions.largest[*r] as usize))).collect();
+        asked.iter().flat_map(|r| both_sides(pieces.places(regions.largest[*r] as usize), most)).collect();
     let a = operands[0].field().contains(&points, monitor)?;
     let b = operands[1].field().contains(&points, monitor)?;
     let fate = |k: usize| {
@@ -62,12 +64,13 @@ pub fn fates(
     Ok((0..asked.len()).map(fate).collect())
 }
 
-/// Places next to a piece, on the side of its normal first.
-fn both_sides(corners: [Vec3; 3]) -> [Vec3; 2] {
+/// Places next to a piece, on the side of its normal first, at most about `most` from it.
+fn both_sides(corners: [Vec3; 3], most: f64) -> [Vec3; 2] {
     let [a, b, c] = corners;
     let (center, vector) = (barycentre(corners), area_vector(corners));
     let around = a.distance(b) + b.distance(c) + c.distance(a);
     let radius = if around > 0.0 { 2.0 * vector.length() / around } else { 0.0 };
-    let off = (OFF * radius).max(LEAST * center.abs().max_element()) * vector.normalize_or_zero();
+    let least = OF_COORDINATE * center.abs().max_element();
+    let off = (OFF * radius).min(most).max(least) * vector.normalize_or_zero();
     [center + off, center - off]
 }

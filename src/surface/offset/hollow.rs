@@ -115,6 +115,9 @@ fn cylinder_of(region: &Region, drain: &Drain, thickness: f64) -> Option<Cylinde
     let mut search = Search::default();
     let mut depth = |k: i64| {
         let place = drain.at + k as f64 * step * direction;
+        if !bounds.contains(place) {
+            return f64::NEG_INFINITY; // an axis may begin far away
+        }
         let distance = region.tree.distance_within(place, f64::INFINITY, &mut search).unwrap_or(0.0);
         if region.field.contains_point(place) { distance } else { -distance }
     };

@@ -13,6 +13,10 @@ use crate::winding::many::{MANY, Many};
 /// Below this tolerance the far field's 32-bit floats are not good enough, and exact sums take over.
 const FINEST_EXPANSION: f64 = 1e-5;
 
+/// Up to so many points of a cloud are summed singly for a single query: no slower than by the tree, whose errors were measured
+/// where there are many clusters and areas fit the distances between points.
+const SMALL_CLOUD: usize = 128;
+
 impl WindingField {
     /// The winding number at `q`: 1 inside a closed shape, 0 outside, NaN where `q` is not finite.
     pub fn at(&self, q: Vec3, accuracy: Accuracy) -> f64 {
@@ -57,13 +61,17 @@ impl WindingField {
     fn expansion_for(&self, accuracy: Accuracy) -> Option<(Order, f64)> {
         match accuracy {
             Accuracy::Explicit { order, beta } => Some((order, beta)),
-            Accuracy::Tolerance(t) if t < FINEST_EXPANSION => None,
+            Accuracy::Tolerance(t) if t < FINEST_EXPANSION || self.is_small_cloud() => None,
             Accuracy::Tolerance(t) => {
                 let beta = self.error_model().beta(t);
                 let beta = if let Engine::Cloud(cloud) = &self.engine { cloud.beta(beta, t) } else { beta };
                 Some((Order::Two, beta))
             }
         }
+    }
+
+    fn is_small_cloud(&self) -> bool {
+        matches!(&self.shape, Shape::Cloud(cloud) if cloud.len() <= SMALL_CLOUD)
     }
 
     /// What evaluates many points at once, and with which parameters, if anything does.
