@@ -11,6 +11,9 @@ const STEPS_PER_REPORT: usize = 64;
 /// Potentials are found anew when the deviation has fallen to this share: roundings add up.
 const ANEW: f64 = 1e-6;
 
+/// A gap between potentials that is so many times that of the start tells that the exchanges lead away.
+const ASTRAY: f64 = 1e3;
+
 /// Charges, of 1 in all, that give the same potential at all barycentres but for `tolerance`, from `charges` on, of 1 too.
 pub fn solve(
     system: &dyn System,
@@ -19,8 +22,10 @@ pub fn solve(
     most_steps: usize,
     monitor: &dyn Monitor,
 ) -> Result<Solution, Cancelled> {
+    let start = charges.clone();
     let mut potentials = system.potentials(&charges);
-    let first = deviation(&potentials).0;
+    let (first, lowest, highest) = deviation(&potentials);
+    let widest = ASTRAY * (potentials[highest] - potentials[lowest]);
     let mut fresh = first;
     let mut steps = 0;
     loop {
@@ -30,7 +35,12 @@ pub fn solve(
             (worst, lowest, highest) = deviation(&potentials);
             fresh = worst;
         }
-        if worst <= tolerance || steps >= most_steps || lowest == highest || worst.is_nan() {
+        let gap = potentials[highest] - potentials[lowest];
+        // By the paper's rule a triangle's own potential is too low: those next to others may give and take without end.
+        if worst.is_nan() || gap > widest {
+            return Ok(Solution { charges: start, steps });
+        }
+        if worst <= tolerance || steps >= most_steps || lowest == highest {
             return Ok(Solution { charges, steps });
         }
         if steps % STEPS_PER_REPORT == 0 {
@@ -39,8 +49,7 @@ pub fn solve(
         }
         let (of_highest, of_lowest) = (system.column(highest), system.column(lowest));
         let own = of_highest[highest] + of_lowest[lowest];
-        let change =
-            (potentials[highest] - potentials[lowest]) / (own - of_lowest[highest] - of_highest[lowest]);
+        let change = gap / (own - of_lowest[highest] - of_highest[lowest]);
         if !change.is_finite() {
             return Ok(Solution { charges, steps });
         }
