@@ -8,7 +8,7 @@ import { references } from './tools/reference.mjs';
 import { root, www } from './tools/paths.mjs';
 import { program, run, say } from './tools/run.mjs';
 import { bindgenTools, requireCargo } from './tools/rust.mjs';
-import { buildVariant, wasmCargo } from './tools/wasm.mjs';
+import { QUICK, buildVariant, wasmCargo } from './tools/wasm.mjs';
 
 /** What the runners say at their end: cargo's and wasm-bindgen's, node's. */
 const CLOSING_LINES = /^(test result: .*|[#ℹ] (?:tests|pass|fail|skipped|duration_ms) .*|.*built in .*)$/gm;
@@ -34,7 +34,7 @@ function nodeTests(folder, env) {
 
 async function wasmTests({ chromedriver }) {
   const { runner } = await bindgenTools();
-  return wasmCargo('threads', ['test', '--test', 'wasm', '--features', 'wasm-test'], {
+  return wasmCargo('threads', ['test', '--test', 'wasm', '--features', 'wasm-test', ...QUICK], {
     quiet: true,
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: runner,
     CHROMEDRIVER: chromedriver,
