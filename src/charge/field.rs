@@ -104,7 +104,8 @@ impl ElectricField {
         if elements.is_empty() {
             return Err(ChargeError::NoArea { triangles: soup.len() });
         }
-        let wanted: Vec<f64> = elements.parents.iter().map(|t| wanted[*t as usize]).collect();
+        let of_triangles = wanted;
+        let wanted: Vec<f64> = elements.parents.iter().map(|t| of_triangles[*t as usize]).collect();
         let clusters = Clusters::of(&elements);
         let own = own_moments(&elements);
         let influence = Influence { elements: &elements, integration: config.integration };
@@ -121,12 +122,15 @@ impl ElectricField {
                 robin_hood::solve(&*system, even, config.tolerance, config.most_steps, monitor)?
             }
         };
-        let is_of_soup = |pair: &(&f64, &f64)| *pair.1 > 0.0;
-        let sum: f64 =
-            solution.charges.iter().zip(&wanted).filter(is_of_soup).map(|(charge, _)| charge).sum();
         let sizes: f64 = solution.charges.iter().map(|charge| charge.abs()).sum();
         let element_charges: Vec<f64> = solution.charges.iter().map(|charge| charge / sizes).collect();
-        let unit = config.total / (sum / sizes);
+        // The sum is that of the triangles: parts of one may have far larger charges, of both signs.
+        let mut charges = vec![0.0; soup.len()];
+        elements.parents.iter().zip(&element_charges).for_each(|(t, charge)| charges[*t as usize] += charge);
+        let is_of_soup = |pair: &(&f64, &f64)| *pair.1 > 0.0;
+        let sum: f64 = charges.iter().zip(of_triangles).filter(is_of_soup).map(|(charge, _)| charge).sum();
+        let unit = config.total / sum;
+        charges.iter_mut().for_each(|charge| *charge *= unit);
         // With the signs of one conductor: all are to be the same.
         let potentials = system.potentials(&element_charges);
         let potentials: Vec<f64> = potentials.iter().zip(&wanted).map(|(p, wanted)| p * wanted).collect();
@@ -142,9 +146,6 @@ impl ElectricField {
             reached: deviation <= config.tolerance,
             potential: unit * elements.frame.scale * potentials.iter().sum::<f64>() / potentials.len() as f64,
         };
-        let mut charges = vec![0.0; soup.len()];
-        let charged = elements.parents.iter().zip(&element_charges);
-        charged.for_each(|(t, charge)| charges[*t as usize] += unit * charge);
         Ok(ElectricField {
             of_elements: series_of_elements(&own, &element_charges),
             of_clusters: clusters.series(&elements, &own, &element_charges),
