@@ -45,7 +45,7 @@ impl Charged<'_> {
     }
 
     /// The same of what is listed for its groups.
-    pub fn listed(&self, block: &Block, lists: &Lists) -> Vec<Value> {
+    fn listed(&self, block: &Block, lists: &Lists) -> Vec<Value> {
         let mut values = vec![(0.0, Vec3::ZERO); block.points.len()];
         let mut far = vec![[Octet::ZERO; SUMS]; block.groups.len()];
         for order in [0, 1] {

@@ -97,7 +97,7 @@ pub struct Lists {
 }
 
 impl Lists {
-    /// What acts on all groups of any blocks in a ball of all there is below some clusters.
+    /// What acts on any points in a ball of all there is below some clusters.
     pub fn of_ball(
         center: Vec3,
         radius: f64,
@@ -108,9 +108,6 @@ impl Lists {
     ) -> Lists {
         let mut lists = Lists::default();
         lists.find(&Block::of_ball(center, radius), elements, clusters, opening, below);
-        let Lists { clusters, elements, near, .. } = &mut lists;
-        let all = clusters.iter_mut().chain(elements).chain([near]).flatten();
-        all.for_each(|(_, groups)| *groups = u32::MAX);
         lists
     }
 
