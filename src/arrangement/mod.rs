@@ -2,10 +2,11 @@
 //!
 //! Whether and how two triangles meet is decided by exact predicates (`contacts`). Each point that this makes has a name, so
 //! that all triangles around share it, and coordinates of twice the precision (`twofold`, `points`), so that those computed
-//! in different ways are equal after rounding. A triangle is cut by a constrained Delaunay triangulation in its own
-//! coordinates, where the points of its edges lie exactly on them (`triangulate`, `edges`); where segments in it cross, the
-//! crossing goes to the other triangles that have them too, until nothing changes (`refine`). Triangles that overlap in a
-//! plane get the same pieces there (`coplanar`).
+//! in different ways are equal after rounding; what rounded input puts next to each other is one point (`cells`). A triangle is
+//! cut by a constrained Delaunay triangulation in its own coordinates, where the points of its edges lie exactly on them
+//! (`triangulate`, `edges`); where segments in it cross, the crossing goes to the other triangles that have them too, until
+//! nothing changes (`refine`). Triangles that overlap in a plane get the same pieces there (`coplanar`).
+mod cells;
 mod contacts;
 mod coplanar;
 mod edges;

@@ -1,27 +1,22 @@
 //! The points of an arrangement: the given vertices, and those that are made, each once.
+use super::cells::Cells;
 use super::contacts::Key;
 use super::twofold::{Place, Twofold};
 use crate::data::map_items;
 use crate::math::Vec3;
-use rustc_hash::FxHashMap;
 
-/// Vertices by number: first those given, then those made, in twice the precision. No two of those that were named or made
-/// are in the same place after rounding.
+/// Vertices by number: first those given, then those made, in twice the precision. None is made next to one that was named or made.
 pub struct Points {
     positions: Vec<Vec3>,
     given: usize,
     made: Vec<Place>,
-    numbers: FxHashMap<[u64; 3], u32>,
+    cells: Cells,
     /// Coordinates of points that are made are 0 when they are smaller.
     least: f64,
 }
 
 /// Of the largest coordinate: far below where rounding to single precision tells values apart, far above errors of twice that.
 const LEAST: f64 = 1e-27;
-
-fn bits(p: Vec3) -> [u64; 3] {
-    (p + Vec3::ZERO).to_array().map(f64::to_bits)
-}
 
 impl Points {
     pub fn new(positions: Vec<Vec3>) -> Points {
@@ -30,14 +25,17 @@ impl Points {
             given: positions.len(),
             positions,
             made: Vec::new(),
-            numbers: FxHashMap::default(),
+            cells: Cells::default(),
             least: LEAST * largest,
         }
     }
 
     /// Makes a given vertex one that new points can fall on.
     pub fn name(&mut self, vertex: u32) {
-        self.numbers.entry(bits(self.positions[vertex as usize])).or_insert(vertex);
+        let place = self.positions[vertex as usize];
+        if self.cells.nearest(place, &self.positions).is_none_or(|(off, _)| off > 0.0) {
+            self.cells.insert(place, vertex);
+        }
     }
 
     pub fn positions(&self) -> &[Vec3] {
@@ -56,7 +54,7 @@ impl Points {
         }
     }
 
-    /// The point in that place after rounding, made if there is none; nothing if the place is not finite.
+    /// The point next to that place, made if there is none; nothing if the place is not finite.
     pub fn add(&mut self, place: Place) -> Option<u32> {
         if !place.is_finite() {
             return None;
@@ -64,12 +62,13 @@ impl Points {
         let cleared = |x: Twofold| if x.high.abs() < self.least { Twofold::default() } else { x };
         let place = Place(place.0.map(cleared));
         let rounded = place.rounded();
-        let next = self.positions.len() as u32;
-        let number = *self.numbers.entry(bits(rounded)).or_insert(next);
-        if number == next {
-            self.positions.push(rounded);
-            self.made.push(place);
+        if let Some((_, number)) = self.cells.nearest(rounded, &self.positions) {
+            return Some(number);
         }
+        let number = self.positions.len() as u32;
+        self.positions.push(rounded);
+        self.made.push(place);
+        self.cells.insert(rounded, number);
         Some(number)
     }
 

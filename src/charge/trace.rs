@@ -110,9 +110,9 @@ struct Line {
     points: Vec<Vec3>,
     /// Where the field led at its last point.
     direction: Vec3,
-    /// How far it is still to go, and the next step.
+    /// How far it is still to go, and the next step: in whole steps, so that no length is too large or small to be counted.
     rest: f64,
-    step: f64,
+    share: f64,
 }
 
 impl Line {
@@ -129,8 +129,8 @@ impl Tracer<'_> {
             .map(|k| {
                 let direction = directions[k].normalize_or_zero();
                 let points = vec![starts[k], starts[k] + self.offset * direction];
-                let rest = self.step * self.config.steps as f64;
-                Line { number: numbers[k] as usize, points, direction, rest, step: self.step }
+                let rest = self.config.steps as f64;
+                Line { number: numbers[k] as usize, points, direction, rest, share: 1.0 }
             })
             .collect();
         // Which lines go on. Half a step may be lost to rounding, no more.
@@ -151,7 +151,7 @@ impl Tracer<'_> {
             if self.config.integrator == Integrator::Midpoint {
                 let steps = open.iter().zip(&fields).zip(&at);
                 let middles: Vec<Vec3> =
-                    steps.map(|((k, field), at)| *at + 0.5 * lines[*k].step * *field).collect();
+                    steps.map(|((k, field), at)| *at + 0.5 * lines[*k].share * self.step * *field).collect();
                 let ahead = self.directions(&middles, &mut cells);
                 // A charged surface between turns the field round: what leads to it is the field on this side.
                 for (field, ahead) in fields.iter_mut().zip(ahead) {
@@ -184,21 +184,21 @@ impl Tracer<'_> {
     /// Adds a point to a line; whether it goes on from there.
     fn advance(&self, line: &mut Line, direction: Vec3) -> bool {
         let from = line.end();
-        let to = from + line.step * direction;
+        let to = from + line.share * self.step * direction;
         if direction == Vec3::ZERO || !to.is_finite() {
             return false;
         }
         line.points.push(to);
-        line.rest -= line.step;
+        line.rest -= line.share;
         if let Some(largest) = self.config.largest_turn {
             let turn = line.direction.angle_between(direction);
-            let wanted = line.step * (largest / turn.max(1e-3 * largest)).clamp(0.5, 2.0);
-            line.step = wanted.clamp(SHORTEST * self.step, self.step);
+            let wanted = line.share * (largest / turn.max(1e-3 * largest)).clamp(0.5, 2.0);
+            line.share = wanted.clamp(SHORTEST, 1.0);
         }
         line.direction = direction;
         let is_inside = self.config.bounds.is_none_or(|bounds| bounds.contains(to));
-        let has_way = line.rest > 0.5 * SHORTEST * self.step;
-        line.step = line.step.min(line.rest);
+        let has_way = line.rest > 0.5 * SHORTEST;
+        line.share = line.share.min(line.rest);
         has_way && is_inside && !(self.stop)(line.number, from, to)
     }
 }

@@ -39,7 +39,7 @@ pub fn across_vertices(pieces: &Pieces, scattered: [bool; 2]) -> Regions {
         }
     }
     let is_double = |piece: usize| doubles.contains(&sorted(pieces.corners[piece]));
-    numbered(pieces, &mut sets, vertices, is_double)
+    numbered(pieces, &mut sets, vertices, is_double, |_| true)
 }
 
 /// Sorted corners of pieces that both operands have.
@@ -54,7 +54,7 @@ fn doubles(pieces: &Pieces, is_cut: &[bool]) -> FxHashSet<[u32; 3]> {
 }
 
 /// Regions of pieces that share edges which no others have, in opposite directions; only the first of those in one place counts,
-/// the others belong to its region.
+/// the others belong to its region, whichever way they are turned.
 pub fn across_edges(pieces: &Pieces) -> Regions {
     let mut first: FxHashMap<[u32; 3], u32> = FxHashMap::default();
     let mut around: FxHashMap<[u32; 2], Vec<(u32, bool)>> = FxHashMap::default();
@@ -77,10 +77,18 @@ pub fn across_edges(pieces: &Pieces) -> Regions {
             sets.join(a, b);
         }
     }
-    numbered(pieces, &mut sets, 0, |_| false)
+    let is_first = |piece: usize| first[&sorted(pieces.corners[piece])] == piece as u32;
+    numbered(pieces, &mut sets, 0, |_| false, is_first)
 }
 
-fn numbered(pieces: &Pieces, sets: &mut Sets, shift: u32, is_double: impl Fn(usize) -> bool) -> Regions {
+/// Sets as regions; pieces that do not count are never the largest of one.
+fn numbered(
+    pieces: &Pieces,
+    sets: &mut Sets,
+    shift: u32,
+    is_double: impl Fn(usize) -> bool,
+    counts: impl Fn(usize) -> bool,
+) -> Regions {
     let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
     let mut regions = Regions { of: Vec::new(), largest: Vec::new(), is_double: Vec::new() };
     let mut areas = Vec::new();
@@ -93,7 +101,7 @@ fn numbered(pieces: &Pieces, sets: &mut Sets, shift: u32, is_double: impl Fn(usi
         });
         regions.of.push(region);
         let area = area_vector(pieces.places(piece)).length();
-        if area > areas[region as usize] {
+        if area > areas[region as usize] && counts(piece) {
             areas[region as usize] = area;
             regions.largest[region as usize] = piece as u32;
         }
