@@ -2,7 +2,7 @@
 use super::facts::Watch;
 use super::shapes::Made;
 use super::source::Source;
-use fast_winding::data::{Layer, Polygon, sides};
+use fast_winding::data::{Layer, Polygon, Shape, sides};
 use fast_winding::io::{
     MeshResolution, write_layer_svg, write_layers_3mf, write_layers_dxf, write_layers_json, write_layers_svg,
 };
@@ -45,7 +45,8 @@ pub fn layers(bytes: &[u8]) {
         mode: source.pick(&[SliceMode::Winding, SliceMode::Winding, SliceMode::EvenOdd, SliceMode::Largest]),
         simplify: if source.flag() { 0.0 } else { source.setting(&[0.01, 0.3]) },
     };
-    if plan.spans_of(field.shape()).is_ok_and(|spans| spans.len() as f64 > LAYERS) {
+    let is_long = plan.spans_of(field.shape()).is_ok_and(|spans| spans.len() as f64 > LAYERS);
+    if is_long || reaches_far(&field, config.spacing, config.resolution) {
         return;
     }
     let found = slice(&field, &plan, &config, &Watch::new(source.byte()));
@@ -62,6 +63,17 @@ pub fn layers(bytes: &[u8]) {
 pub fn too_few_to_wait_for(spacing: f64, field: &WindingField) -> bool {
     const CELLS: f64 = 30.0;
     spacing.is_nan() || spacing <= 0.0 || field.bounds().size().max_element() / spacing < CELLS
+}
+
+/// Whether the inside of a cloud reaches over more cells than a run has time for, and yet fewer than are refused.
+pub fn reaches_far(field: &WindingField, spacing: Option<f64>, resolution: usize) -> bool {
+    const CELLS: std::ops::Range<f64> = 1e4..1e9;
+    let size = field.bounds().size().max_element();
+    let spacing = spacing.unwrap_or(size / resolution.max(1) as f64);
+    match field.shape() {
+        Shape::Cloud(cloud) => CELLS.contains(&(cloud.areas().iter().sum::<f64>() / spacing / spacing)),
+        Shape::Soup(_) => false,
+    }
 }
 
 fn assert_rings(layer: &Layer) {

@@ -1,7 +1,7 @@
 //! Level sets of fields and of distances: closed, manifold, finite.
 use super::facts::{Watch, assert_closed_manifold, assert_manifold};
 use super::shapes::Made;
-use super::slices::too_few_to_wait_for;
+use super::slices::{reaches_far, too_few_to_wait_for};
 use super::source::Source;
 use fast_winding::surface::{
     Drain, HollowConfig, OffsetConfig, SurfaceConfig, extract, hollow, offset, two_sided_offset,
@@ -38,6 +38,9 @@ pub fn level_sets(bytes: &[u8]) {
         trim: source.option(&[1.5, 3.0]),
         sharp: source.option(&[35.0, 10.0, 120.0]),
     };
+    if reaches_far(&field, config.spacing, config.resolution.unwrap_or(1)) {
+        return;
+    }
     let Ok(mesh) = extract(&field, &config, &Watch::new(source.byte())) else { return };
     match config.trim {
         Some(_) => assert_manifold(&mesh.positions, &mesh.triangles, "a trimmed surface"),
@@ -56,6 +59,9 @@ pub fn offsets(bytes: &[u8]) {
     let spacing = spacing(&mut source, &field).filter(|_| length.abs() <= size);
     let resolution = resolution(&mut source);
     let watch = Watch::new(source.byte());
+    if reaches_far(&field, spacing, resolution.unwrap_or(1)) {
+        return;
+    }
     let made = match kind {
         0 => {
             let drain = |source: &mut Source| Drain {

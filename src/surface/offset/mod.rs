@@ -8,9 +8,10 @@ mod sharp;
 
 pub use hollow::{Drain, HollowConfig, hollow};
 
+use super::cells::area;
 use super::sharp::{Limits, sharpen};
 use super::{SurfaceConfig, SurfaceError, check_sharp};
-use crate::data::{Cancelled, LARGEST_COORDINATE, LatticeError, Monitor, Parts, SurfaceMesh};
+use crate::data::{Cancelled, LARGEST_COORDINATE, Lattice, LatticeError, Monitor, Parts, Shape, SurfaceMesh};
 use crate::distance::DistanceTree;
 use crate::levelset::{SurfaceGrid, TraceError, trace_surface};
 use crate::math::Aabb;
@@ -162,7 +163,11 @@ fn surface_of(
     sharp: Option<f64>,
     monitor: &dyn Monitor,
 ) -> Result<SurfaceMesh, OffsetError> {
-    let spacing = region.spacing;
+    let (spacing, shape) = (region.spacing, region.field.shape());
+    if matches!(shape, Shape::Cloud(_)) && region.kept.has_one_side() {
+        // What is inside of a cloud may reach far beyond its bounds.
+        Lattice::check_area(area(shape), spacing)?;
+    }
     let grid = SurfaceGrid::over(bounds, spacing);
     region.field.prepare_single_points();
     let seeds = cells_near(region, &grid, bounds.padded(spacing), monitor)?;
