@@ -1,6 +1,9 @@
 // Interop with manifold-3d: its meshes, of which no more is asked than their arrays.
 import type { SoupArrays } from './api.js';
 import { WindingError } from './error.js';
+import type { MeshArrays } from './mesh-arrays.js';
+
+export type { MeshArrays };
 
 /** A mesh of manifold-3d (`Manifold.getMesh()`), or what `new Mesh(…)` takes. */
 export interface ManifoldMesh {
@@ -28,16 +31,6 @@ export function soupArrays({ numProp, vertProperties, triVerts, mergeFromVert, m
   mergeFromVert.forEach((from, i) => (merged[from] = mergeToVert[i]!));
   // What is no vertex stays as it is: the soup refuses it by name.
   return { positions, indices: triVerts.map((vertex) => merged[vertex] ?? vertex) };
-}
-
-/** What `geometry()` of soups gives, `surface` and the like, or arrays of your own; without indices each three positions are a triangle. */
-export interface MeshArrays {
-  /** xyzxyz…, relative to `origin`. */
-  positions: Float32Array | Float64Array;
-  /** Three for each triangle. */
-  indices?: Uint32Array;
-  /** Three numbers to add to positions; zero unless given. */
-  origin?: ArrayLike<number>;
 }
 
 /**

@@ -22,6 +22,10 @@ export function output(command, args, options = {}) {
   return result.status === 0 ? result.stdout.trim() : undefined;
 }
 
+/** What runs. When this program ends before it, as another step has failed, it is ended too. */
+const running = new Set();
+process.on('exit', () => running.forEach((child) => child.kill()));
+
 /**
  * Runs a command with its output shown, or kept quiet until it fails.
  * Resolves to what it printed; rejects with StepFailed when it fails.
@@ -29,6 +33,7 @@ export function output(command, args, options = {}) {
 export function run(command, args, { cwd, env, quiet = false, timeout } = {}) {
   return new Promise((resolve, reject) => {
     const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], timeout });
+    running.add(child);
     const chunks = [];
     for (const [stream, shown] of [[child.stdout, process.stdout], [child.stderr, process.stderr]]) {
       stream.on('data', (chunk) => {
@@ -40,8 +45,12 @@ export function run(command, args, { cwd, env, quiet = false, timeout } = {}) {
       if (quiet) process.stderr.write(Buffer.concat(chunks));
       reject(new StepFailed(`${command} ${args.join(' ')}: ${why}`));
     };
-    child.on('error', (error) => fail(error.message));
+    child.on('error', (error) => {
+      running.delete(child);
+      fail(error.message);
+    });
     child.on('close', (code, signal) => {
+      running.delete(child);
       if (code === 0) resolve(Buffer.concat(chunks).toString());
       else fail(signal ? `ended by ${signal}` : `exit code ${code}`);
     });

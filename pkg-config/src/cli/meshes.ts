@@ -1,5 +1,5 @@
 // Meshes on their way into a file, and the options that commands which make them have in common.
-import type { FastWinding, Soup } from '../api.js';
+import type { FastWinding, Mesh, Soup } from '../api.js';
 import type { Task } from './command.js';
 import { UsageError } from './usage.js';
 
@@ -19,20 +19,14 @@ export function verifyCells({ resolution, spacing }: { resolution?: number; spac
   if (resolution !== undefined && spacing !== undefined) throw new UsageError('give one of --resolution and --spacing');
 }
 
-interface MeshArrays {
-  positions: Float32Array;
-  indices: Uint32Array;
-  origin: Float64Array;
-}
-
 /** A mesh as a shape, in the model's own frame. */
-export function soupOf(fw: FastWinding, { positions, indices, origin }: MeshArrays): Promise<Soup> {
+export function soupOf(fw: FastWinding, { positions, indices, origin }: Omit<Mesh, 'normals'>): Promise<Soup> {
   const placed = Float64Array.from(positions, (x, i) => x + origin[i % 3]!);
   return fw.Soup.from({ positions: placed, indices });
 }
 
 /** Writes a mesh, if one is wanted. */
-export async function saveMesh(task: Task, mesh: MeshArrays): Promise<void> {
+export async function saveMesh(task: Task, mesh: Omit<Mesh, 'normals'>): Promise<void> {
   if (!task.format) return;
   const soup = await soupOf(task.fw, mesh);
   await saveShape(task, soup);
@@ -44,6 +38,6 @@ export async function saveShape(task: Task, shape: Pick<Soup, 'export'>): Promis
 }
 
 /** Triangles and vertices of a mesh, for a report. */
-export function meshFigures({ positions, indices }: MeshArrays): { triangles: number; vertices: number } {
+export function meshFigures({ positions, indices }: Omit<Mesh, 'normals'>): { triangles: number; vertices: number } {
   return { triangles: indices.length / 3, vertices: positions.length / 3 };
 }

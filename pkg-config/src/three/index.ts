@@ -2,5 +2,6 @@
 export { type ReadGeometryOptions, cloudArrays, soupArrays } from './read.js';
 export { type ThreeGeometry, type ThreeTexture } from './module.js';
 export { type ContourOptions, contourGeometry } from './contours.js';
-export { type MeshArrays, toGeometry } from './mesh.js';
+export type { MeshArrays } from '../mesh-arrays.js';
+export { toGeometry } from './mesh.js';
 export { type PlaneTextureOptions, planeGeometry, planeTexture } from './plane.js';

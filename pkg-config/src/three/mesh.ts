@@ -1,17 +1,6 @@
 import type { BufferGeometry } from 'three';
+import type { MeshArrays } from '../mesh-arrays.js';
 import type { ThreeGeometry } from './module.js';
-
-/** What `surface`, `offset` and the like give, and `geometry` of soups and clouds. */
-export interface MeshArrays {
-  /** xyzxyz…, relative to `origin`. */
-  positions: Float32Array | Float64Array;
-  /** One unit vector for each position. */
-  normals?: Float32Array;
-  /** Three for each triangle. */
-  indices?: Uint32Array;
-  /** Three numbers to add to positions; zero unless given. */
-  origin?: ArrayLike<number>;
-}
 
 /**
  * A mesh, or points, as a geometry. Its positions are the model's own, in 32-bit floats; with `relative`, for models far from the

@@ -108,7 +108,7 @@ fn cast_ray(scene: &Scene, patch: usize, random: &mut Random, is_front: bool, vo
     }
     // As much as surfaces shine: more rays go straight away.
     let (x, y) = normal.any_orthonormal_pair();
-    let (sin, cos) = (TAU * random.below_one()).sin_cos();
+    let (sin, cos) = libm::sincos(TAU * random.below_one());
     let tilt = random.below_one();
     let direction = tilt.sqrt() * (cos * x + sin * y) + (1.0 - tilt).sqrt() * normal;
     let ray = Ray::new(origin, direction);
@@ -142,7 +142,7 @@ pub fn random_of(patch: usize) -> Random {
 /// A unit vector, evenly distributed (Archimedes' cylinder).
 pub fn random_direction(random: &mut Random) -> Vec3 {
     let z = 1.0 - 2.0 * random.below_one();
-    let (sin, cos) = (TAU * random.below_one()).sin_cos();
+    let (sin, cos) = libm::sincos(TAU * random.below_one());
     let r = (1.0 - z * z).max(0.0).sqrt();
     Vec3::new(r * cos, r * sin, z)
 }

@@ -77,7 +77,7 @@ pub fn reaches(clusters: &Clusters, accuracy: &DualAccuracy) -> Vec<Reach> {
         }
         let taylor = |class: usize| {
             let (_, degree) = accuracy.class(class);
-            (area(class) * taylor_factor(degree)).powf(1.0 / (degree as f32 + 3.0))
+            libm::powf(area(class) * taylor_factor(degree), 1.0 / (degree as f32 + 3.0))
         };
         Reach { multipole, taylor: std::array::from_fn(taylor) }
     })
@@ -88,11 +88,11 @@ fn ratio(x: f32, order: usize) -> f32 {
     let p = order as f32;
     let power = 1.0 / (p + 3.0);
     // What it were if the quotient were p + 2, as it is at 0.
-    let most = (x / (p + 2.0)).powf(power);
+    let most = libm::powf(x / (p + 2.0), power);
     let mut t = most / (1.0 + 0.5 * most);
     for _ in 0..2 {
         let rest = 1.0 - t.min(0.95);
-        t = most / ((1.0 - (p + 1.0) / (p + 2.0) * t.min(0.95)) / (rest * rest)).powf(power);
+        t = most / libm::powf((1.0 - (p + 1.0) / (p + 2.0) * t.min(0.95)) / (rest * rest), power);
     }
     t
 }
@@ -108,7 +108,7 @@ impl BlockReach {
     pub fn new(radius: f32, accuracy: &DualAccuracy) -> BlockReach {
         let factor = |class: usize| {
             let degree = accuracy.class(class).1 as f32;
-            radius.powf((degree + 1.0) / (degree + 3.0))
+            libm::powf(radius, (degree + 1.0) / (degree + 3.0))
         };
         BlockReach { radius, factor: std::array::from_fn(factor), nearest: NEAREST * radius }
     }
