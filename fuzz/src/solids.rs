@@ -1,6 +1,7 @@
 //! Voxels and booleans.
 use super::facts::{Watch, imbalance, place};
 use super::shapes::Made;
+use super::slices::reaches_far;
 use super::source::Source;
 use fast_winding::data::{Lattice, Shape, Silent, TriangleSoup, VoxelBricks};
 use fast_winding::io::{NrrdEncoding, VoxContent, write_nrrd, write_vox};
@@ -88,6 +89,9 @@ pub fn booleans(bytes: &[u8]) {
     let tolerance = source.option(&[0.2, 0.5]).filter(|t| closed || t.is_nan() || *t >= 0.1 || *t <= 0.0);
     let config = BooleanConfig { tolerance, resolution: Some(source.below(12)) };
     let watch = Watch::new(source.byte());
+    if [&a, &b].iter().any(|field| reaches_far(field, None, config.resolution.unwrap_or(1))) {
+        return;
+    }
     let Ok(mesh) = boolean(&a, &b, op, &config, &watch) else { return };
     assert!(mesh.positions.iter().all(|p| p.is_finite()), "a boolean with a vertex that is not finite");
     assert!(mesh.triangles.iter().flatten().all(|v| (*v as usize) < mesh.positions.len()));

@@ -94,19 +94,22 @@ fn cut(triangles: Vec<(u32, [Vec3; 3])>, refinement: &Refinement) -> Vec<(u32, [
     let limit = (refinement.largest.max(1.0) * median)
         .min(1.5 * of_parts(refinement.least_parts))
         .max(2.0 * of_parts(refinement.most_parts));
+    // Of needles, rounding leaves parts that are not half as large: they are not cut without end.
+    let most = triangles.len() + 4 * refinement.most_parts;
     let mut parts = Vec::with_capacity(triangles.len());
     let mut open = Vec::new();
     for (parent, corners) in triangles {
         open.push(corners);
         while let Some(corners) = open.pop() {
-            if area_vector(corners).length() <= limit {
-                parts.push((parent, corners));
-                continue;
-            }
             let k = longest_edge(corners).0;
             let [a, b, c] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
             let middle = a.midpoint(b);
-            open.extend([[middle, b, c], [a, middle, c]]);
+            let is_large = area_vector(corners).length() > limit;
+            if is_large && middle != a && middle != b && parts.len() + open.len() < most {
+                open.extend([[middle, b, c], [a, middle, c]]);
+            } else {
+                parts.push((parent, corners));
+            }
         }
     }
     parts
