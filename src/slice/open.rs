@@ -19,6 +19,8 @@ const FINEST_SCAN: f64 = 48.0;
 const MOST_NODES: usize = 1 << 13;
 /// Contours that touch no surface, found one after the other.
 const MOST_ARCS: usize = 64;
+/// Nodes from which a contour that is missing is looked for, one after the other, until there is one.
+const MOST_TRIED: usize = 8;
 
 /// The polygons of what is inside, or none where arcs did not come to an end or the field is inside elsewhere.
 ///
@@ -35,7 +37,8 @@ pub(super) fn polygons(segments: &[Segment], plane: &Plane, openings: &[Aabb]) -
         if wrong.is_empty() {
             return Some(polygons);
         }
-        let ring = wrong.iter().find_map(|k| missing(*k, &scan, &polygons, &parts, plane))?;
+        let mut tried = wrong.iter().step_by(wrong.len().div_ceil(MOST_TRIED));
+        let ring = tried.find_map(|k| missing(*k, &scan, &polygons, &parts, plane))?;
         match ring {
             Missing::Nothing => return Some(polygons),
             Missing::Ring(ring) => {
