@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { boxObj, boxStl, sphereStl } from './models.mjs';
-import { contourAt, drawnPixels, dropFile, fact, number, sampleHeight, settled, sharedPage, shows, slide, withPage as onSite } from './page.mjs';
+import { contourAt, drawnPixels, dropFile, fact, make, number, sampleHeight, settled, sharedPage, shows, slide, withPage as onSite } from './page.mjs';
 import { served } from './site.mjs';
 
 const site = served();
@@ -181,3 +181,22 @@ describe('a page without a model', () => {
     await context.close();
   });
 });
+
+/** As in browsers without a graphics card that they trust. */
+function refuseWebGl() {
+  const { getContext } = HTMLCanvasElement.prototype;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+    return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...rest);
+  };
+}
+
+test('without WebGL 2 the page says so where the view would be, and all else works', () =>
+  withPage({ hash: '#sample=teapot', script: refuseWebGl }, async (page) => {
+    await page.waitForSelector('#no-view:not([hidden])');
+    assert.match(await page.textContent('#no-view'), /no 3D view: .* no WebGL 2\. All else works/);
+    assert.equal(await page.isVisible('.view-tools'), false);
+    assert.notEqual(await page.getAttribute('#plan-svg path', 'd'), '');
+    for (const button of ['#repair', '#voxelize', '#surface']) await make(page, button);
+    assert.equal(await page.locator('#results input').count(), 4, 'the model and three results');
+    assert.equal(await page.isVisible('#problem'), false);
+  }));

@@ -9,11 +9,12 @@ const FOLDS = ['check', 'repair', 'voxels', 'surface', 'offset', 'combine', 'tex
  * Opens the page, with what folds unfolded, and waits until a sample is shown with its layer: the first, or what the address names after
  * its `#`. Without the service worker, unless it is wanted.
  */
-export async function openPage(browser, url, { width = 1600, height = 900, unfolded = FOLDS, hash = '', serviceWorkers = 'block', ...options } = {}) {
+export async function openPage(browser, url, { width = 1600, height = 900, unfolded = FOLDS, hash = '', serviceWorkers = 'block', script, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, acceptDownloads: true, serviceWorkers, ...options });
   await context.addInitScript((ids) => {
     if (!localStorage.getItem('fast-winding.open')) localStorage.setItem('fast-winding.open', JSON.stringify(ids));
   }, unfolded);
+  if (script) await context.addInitScript(script);
   const page = await visit(context, url + hash);
   await settled(page);
   return page;

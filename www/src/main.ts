@@ -23,6 +23,7 @@ import { layerPanel } from './panels/layer.ts';
 import { legendPanel } from './panels/legend.ts';
 import { modelControls, showModelFacts } from './panels/model.ts';
 import { movesPanel } from './panels/moves.ts';
+import { withoutView } from './panels/no-view.ts';
 import { notes } from './panels/note.ts';
 import { offsetPanel } from './panels/offset.ts';
 import { followOptions } from './panels/options.ts';
@@ -83,7 +84,7 @@ async function startView(): Promise<void> {
     const { View } = await import('./view/view.ts');
     view = new View(store);
   } catch (error) {
-    store.set({ problem: problemOf('The 3D view needs WebGL 2', error) });
+    withoutView(error);
   }
 }
 
