@@ -1,5 +1,5 @@
 import { whenReleased } from './alive.js';
-import { workerElsewhere } from './elsewhere.js';
+import { isElsewhere, workerElsewhere } from './elsewhere.js';
 import { initFor } from './init.js';
 import type { Platform, Port, PortListener } from './protocol.js';
 
@@ -9,12 +9,15 @@ export * from './exports.js';
 const unbundled: string = import.meta.url;
 
 function newWorker(url: string | URL | undefined): Worker {
+  // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
+  const place = url ? new URL(url, location.href) : new URL('./worker.js', unbundled);
+  if (isElsewhere(place)) return workerElsewhere(place);
   try {
     // Written out, so that bundlers find the worker.
     return url ? new Worker(url, { type: 'module' }) : new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
   } catch {
-    // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
-    return workerElsewhere(url ? new URL(url, location.href) : new URL('./worker.js', unbundled));
+    // A page that is a file, or a bundle that is elsewhere: whether this one can be loaded is told by an event, as of all workers.
+    return workerElsewhere(place);
   }
 }
 

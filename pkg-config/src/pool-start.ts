@@ -1,5 +1,5 @@
 // Starts the workers of the thread pool.
-import { workerElsewhere } from './elsewhere.js';
+import { isElsewhere, workerElsewhere } from './elsewhere.js';
 import type { PoolStarter } from './pool.js';
 
 export interface PoolMessage {
@@ -18,12 +18,10 @@ export interface PoolMessage {
 const unbundled: string = import.meta.url;
 
 function newWorker(): Worker {
-  try {
-    return new Worker(new URL('./pool-worker.js', import.meta.url), { type: 'module' });
-  } catch {
-    // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
-    return workerElsewhere(new URL('./pool-worker.js', unbundled));
-  }
+  // Not `new URL(…, import.meta.url)`, which bundlers would take for one more file to bundle.
+  const place = new URL('./pool-worker.js', unbundled);
+  if (isElsewhere(place)) return workerElsewhere(place);
+  return new Worker(new URL('./pool-worker.js', import.meta.url), { type: 'module' });
 }
 
 /** Resolves when `worker` has joined the pool. */

@@ -1,7 +1,7 @@
 // The development tools that come from npm: all of them are listed in www/package.json.
 import { cpSync, existsSync, mkdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { pkg, source, www } from './paths.mjs';
+import { cache, pkg, source, www } from './paths.mjs';
 import { fingerprint, onceFor } from './inputs.mjs';
 import { StepFailed, run, say } from './run.mjs';
 
@@ -34,4 +34,16 @@ export function npmTool(packageName, program) {
   const folder = join(www, 'node_modules', packageName);
   const { bin } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
   return join(folder, typeof bin === 'string' ? bin : bin[program]);
+}
+
+/** A folder with packages that only some commands need, installed under the user's cache the first time. */
+export async function npmExtra(packages) {
+  const folder = join(cache, 'tools', packages.join('-'));
+  const done = join(folder, '.installed');
+  await onceFor(done, packages.join(' '), [join(folder, 'node_modules')], async () => {
+    say(`installing ${packages.join(', ')}`);
+    mkdirSync(folder, { recursive: true });
+    await run('npm', ['install', '--prefix', folder, '--ignore-scripts', '--no-audit', '--no-fund', ...packages], { cwd: folder, quiet: true });
+  });
+  return join(folder, 'node_modules');
 }

@@ -12,8 +12,9 @@ const RESTART: usize = 80;
 const MOST_STEPS: usize = 400;
 /// How much less the rms deviation has to be than the largest, at first.
 const RMS_SHARE: f64 = 0.25;
-/// A new direction smaller than this share of what it was made of is rounding: there is none left.
-const SPENT: f64 = 1e-14;
+/// A new direction smaller than this share of what it was made of is rounding, or would take charges of both signs that are larger than
+/// all others by as much, as those of triangles that cross each other in nearly one plane: there is none left.
+const SPENT: f64 = 1e-10;
 /// A cluster's own potentials count as larger by this share: copies of a triangle would make its matrix singular.
 const SHIFT: f64 = 1e-3;
 

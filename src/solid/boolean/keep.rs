@@ -1,9 +1,9 @@
 //! Which pieces stay, when each operand is looked at from the other.
 use super::operands::{Operand, Pieces};
 use super::regions::{Regions, across_vertices};
-use super::sides::{self, Fate};
+use super::sides::{self, Fate, directed};
 use super::{BooleanError, BooleanOp};
-use crate::data::{Monitor, edges, sorted};
+use crate::data::{Monitor, sorted};
 use crate::math::{Vec3, barycentre};
 use rustc_hash::FxHashMap;
 
@@ -71,11 +71,9 @@ fn drop_copies(pieces: &Pieces, regions: &Regions, kept: &mut [Fate]) {
 pub fn is_torn(pieces: &Pieces, kept: &[Fate]) -> bool {
     let mut net: FxHashMap<[u32; 2], i32> = FxHashMap::default();
     for (corners, fate) in pieces.corners.iter().zip(kept).filter(|(_, fate)| **fate != Fate::Dropped) {
-        let [a, b, c] = *corners;
-        for (ends, is_upward) in edges(*corners).into_iter().zip([a < b, b < c, c < a]) {
+        for (ends, turn) in directed(*corners) {
             if pieces.seams.contains(&ends) {
-                let turn = if is_upward == (*fate == Fate::Kept) { 1 } else { -1 };
-                *net.entry(ends).or_default() += turn;
+                *net.entry(ends).or_default() += turn * fate.turn();
             }
         }
     }

@@ -2,9 +2,10 @@
 use super::operands::{Operand, Pieces, largest_coordinate};
 use super::regions::{Regions, across_edges};
 use super::{BooleanError, BooleanOp};
-use crate::data::{Monitor, sorted};
+use crate::data::{Monitor, edges, sorted};
 use crate::math::{Vec3, area_vector, barycentre};
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 /// What becomes of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +14,17 @@ pub enum Fate {
     /// Kept with its other side out.
     Turned,
     Dropped,
+}
+
+impl Fate {
+    /// How often a piece is part of the result, with its sign.
+    pub fn turn(self) -> i32 {
+        match self {
+            Fate::Kept => 1,
+            Fate::Turned => -1,
+            Fate::Dropped => 0,
+        }
+    }
 }
 
 /// How far from a piece its sides are looked at, at most, in the radius of a circle in it.
@@ -30,13 +42,51 @@ pub fn keep(
 ) -> Result<Vec<Fate>, BooleanError> {
     let regions = across_edges(pieces);
     let all: Vec<usize> = (0..regions.largest.len()).collect();
-    let fates = fates(pieces, operands, op, &regions, &all, monitor)?;
+    let mut fates = fates(pieces, operands, op, &regions, &all, monitor)?;
     let mut first: FxHashMap<[u32; 3], usize> = FxHashMap::default();
-    let fate = |piece: usize| {
-        let is_first = *first.entry(sorted(pieces.corners[piece])).or_insert(piece) == piece;
-        if is_first { fates[regions.of[piece] as usize] } else { Fate::Dropped }
-    };
+    let is_first: Vec<bool> = (0..pieces.corners.len())
+        .map(|piece| *first.entry(sorted(pieces.corners[piece])).or_insert(piece) == piece)
+        .collect();
+    let most = OF_COORDINATE * largest_coordinate(operands);
+    let is_thin =
+        |region: &usize| Aside::of(pieces.places(regions.largest[*region] as usize), most).is_thin();
+    let thin: Vec<usize> = all.into_iter().filter(is_thin).collect();
+    close_with(&thin, pieces, &regions, &is_first, &mut fates);
+    let fate = |piece: usize| if is_first[piece] { fates[regions.of[piece] as usize] } else { Fate::Dropped };
     Ok((0..pieces.corners.len()).map(fate).collect())
+}
+
+/// Regions too thin to have sides become what leaves the least boundary.
+fn close_with(thin: &[usize], pieces: &Pieces, regions: &Regions, is_first: &[bool], fates: &mut [Fate]) {
+    if thin.is_empty() {
+        return;
+    }
+    let mut of_thin: BTreeMap<usize, BTreeMap<[u32; 2], i32>> =
+        thin.iter().map(|region| (*region, BTreeMap::new())).collect();
+    let mut net: FxHashMap<[u32; 2], i32> = FxHashMap::default();
+    for (piece, corners) in pieces.corners.iter().enumerate().filter(|(piece, _)| is_first[*piece]) {
+        let region = regions.of[piece] as usize;
+        for (ends, turn) in directed(*corners) {
+            match of_thin.get_mut(&region) {
+                Some(own) => *own.entry(ends).or_default() += turn,
+                None => *net.entry(ends).or_default() += turn * fates[region].turn(),
+            }
+        }
+    }
+    for (region, own) in of_thin {
+        let at = |ends| net.get(ends).copied().unwrap_or_default();
+        let boundary = |fate: &Fate| own.iter().map(|(e, n)| (at(e) + n * fate.turn()).abs()).sum::<i32>();
+        let best = [Fate::Dropped, Fate::Kept, Fate::Turned].into_iter().min_by_key(boundary);
+        fates[region] = best.unwrap_or(Fate::Dropped);
+        own.into_iter().for_each(|(e, n)| *net.entry(e).or_default() += n * fates[region].turn());
+    }
+}
+
+/// The edges of a piece, lower vertex first, and whether it leads up along each: 1, or down: −1.
+pub fn directed(corners: [u32; 3]) -> [([u32; 2], i32); 3] {
+    let [a, b, c] = corners;
+    let [x, y, z] = edges(corners);
+    [(x, a < b), (y, b < c), (z, c < a)].map(|(ends, is_upward)| (ends, if is_upward { 1 } else { -1 }))
 }
 
 /// What becomes of some regions, by both sides of their largest pieces.
@@ -49,8 +99,8 @@ pub fn fates(
     monitor: &dyn Monitor,
 ) -> Result<Vec<Fate>, BooleanError> {
     let most = OF_COORDINATE * largest_coordinate(operands);
-    let points: Vec<Vec3> =
-        asked.iter().flat_map(|r| both_sides(pieces.places(regions.largest[*r] as usize), most)).collect();
+    let aside = |region: &usize| Aside::of(pieces.places(regions.largest[*region] as usize), most).places();
+    let points: Vec<Vec3> = asked.iter().flat_map(aside).collect();
     let a = operands[0].field().contains(&points, monitor)?;
     let b = operands[1].field().contains(&points, monitor)?;
     let fate = |k: usize| {
@@ -64,13 +114,33 @@ pub fn fates(
     Ok((0..asked.len()).map(fate).collect())
 }
 
-/// Places next to a piece, on the side of its normal first, at most about `most` from it.
-fn both_sides(corners: [Vec3; 3], most: f64) -> [Vec3; 2] {
-    let [a, b, c] = corners;
-    let (center, vector) = (barycentre(corners), area_vector(corners));
-    let around = a.distance(b) + b.distance(c) + c.distance(a);
-    let radius = if around > 0.0 { 2.0 * vector.length() / around } else { 0.0 };
-    let least = OF_COORDINATE * center.abs().max_element();
-    let off = (OFF * radius).min(most).max(least) * vector.normalize_or_zero();
-    [center + off, center - off]
+/// How the sides of a piece are looked at.
+struct Aside {
+    center: Vec3,
+    normal: Vec3,
+    /// Of a circle in it, about.
+    radius: f64,
+    off: f64,
+}
+
+impl Aside {
+    /// At most about `most` from it.
+    fn of(corners: [Vec3; 3], most: f64) -> Aside {
+        let [a, b, c] = corners;
+        let (center, vector) = (barycentre(corners), area_vector(corners));
+        let around = a.distance(b) + b.distance(c) + c.distance(a);
+        let radius = if around > 0.0 { 2.0 * vector.length() / around } else { 0.0 };
+        let least = OF_COORDINATE * center.abs().max_element();
+        Aside { center, normal: vector.normalize_or_zero(), radius, off: (OFF * radius).min(most).max(least) }
+    }
+
+    /// Whether other pieces begin before its sides: rounding has made its normal, too.
+    fn is_thin(&self) -> bool {
+        self.radius < self.off
+    }
+
+    /// Places next to it, on the side of its normal first.
+    fn places(&self) -> [Vec3; 2] {
+        [self.center + self.off * self.normal, self.center - self.off * self.normal]
+    }
 }
