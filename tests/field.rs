@@ -3,7 +3,7 @@ mod common;
 
 use common::*;
 use fast_winding::data::{Lattice, Shape, Silent, TriangleSoup};
-use fast_winding::math::{Aabb, Vec3};
+use fast_winding::math::{Aabb, Vec3, distance_to_triangle};
 use fast_winding::winding::{
     Accuracy, FieldConfig, Order, WindingField, winding, winding_of_cloud, winding_of_soup,
 };
@@ -56,6 +56,33 @@ fn principal_values_on_a_cube() {
         assert_close(winding_of_soup(&cube(1.0), q), expected, 1e-15);
         assert_close(field.at(q, Accuracy::EXACT), expected, 1e-15);
         assert_close(field.at(q, Accuracy::default()), expected, 1e-6);
+    }
+}
+
+/// Openings are closed by triangles that are not there: on edges between two of these the field is smooth, too.
+#[test]
+fn inside_of_an_opening_the_field_is_the_sum_between_any_two_corners() {
+    let box_ = cube(1.5);
+    // Corners in one plane, and others that make triangles at angles.
+    for dropped in [vec![0], vec![0, 1], vec![0, 2], vec![3, 8], vec![0, 1, 5, 6], vec![2, 5, 7, 9, 11]] {
+        let soup = without(&box_, |t| dropped.contains(&t));
+        let corners = soup.positions();
+        let pairs = (0..corners.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let queries: Vec<Vec3> = pairs
+            .flat_map(|(i, j)| [0.25, 0.5, 0.75].map(|share| corners[i].lerp(corners[j], share)))
+            .filter(|q| (0..soup.len()).all(|t| distance_to_triangle(*q, soup.corners(t)) > 1e-3))
+            .collect();
+        assert!(queries.len() > 10, "{}", queries.len());
+        let shape = Shape::from(soup);
+        let field = WindingField::new(shape.clone(), FieldConfig { leaf_size: 1, ..Default::default() });
+        let together = field.evaluate(&queries, Accuracy::default(), &Silent).unwrap();
+        for (q, found) in queries.iter().zip(together) {
+            let expected = winding(&shape, *q);
+            let singly = field.at(*q, Accuracy::default());
+            for w in [singly, found, field.at(*q, Accuracy::EXACT)] {
+                assert!((w - expected).abs() < 1e-3, "{dropped:?} {q}: {w} instead of {expected}");
+            }
+        }
     }
 }
 

@@ -35,9 +35,11 @@ pub fn solve(
     let len = influence.elements.len();
     let inverse = Clusters::new(influence);
     let mut charges = vec![0.0; len];
+    // Where nothing is won, as of triangles whose potentials depend on each other, the charge is spread evenly.
+    let spread: Vec<f64> = wanted.iter().zip(&influence.elements.areas).map(|(w, area)| w * area).collect();
+    let (mut best, mut kept) = (1.0, spread);
     let mut steps = 0;
     let mut goal = RMS_SHARE * tolerance;
-    let mut best = f64::INFINITY;
     loop {
         let (residual, deviation) = if steps == 0 {
             (wanted.to_vec(), 1.0)
@@ -46,10 +48,12 @@ pub fn solve(
             let signed: Vec<f64> = potentials.iter().zip(wanted).map(|(p, w)| p * w).collect();
             (potentials.iter().zip(wanted).map(|(p, w)| w - p).collect(), deviation(&signed).0)
         };
-        let is_stuck = deviation > 0.5 * best;
-        best = best.min(deviation);
+        let is_stuck = steps > 0 && deviation > 0.5 * best;
+        if deviation < best {
+            (best, kept) = (deviation, charges.clone());
+        }
         if deviation <= tolerance || steps >= MOST_STEPS || is_stuck || deviation.is_nan() {
-            return Ok(Solution { charges, steps });
+            return Ok(Solution { charges: kept, steps });
         }
         let norm = norm(&residual) / (len as f64).sqrt();
         let report = |rms: f64| {
@@ -86,7 +90,8 @@ fn cycle(
     let mut columns: Vec<Vec<f64>> = Vec::new();
     let mut rotations: Vec<(f64, f64)> = Vec::new();
     let mut right = vec![1f64];
-    while columns.len() < RESTART && right[columns.len()].abs() > share {
+    // There are no more directions than elements.
+    while columns.len() < RESTART.min(residual.len()) && right[columns.len()].abs() > share {
         report(right[columns.len()].abs())?;
         let k = columns.len();
         let mut next = system.potentials(&inverse.apply(&basis[k]));

@@ -1,9 +1,10 @@
 //! Triangles as sources: solid angles near, dipole moments far (Barill et al. 2018, section 3.3).
-use super::angle_product::{AngleProduct, with_signs};
+use super::angle_product::AngleProduct;
 use super::closure::Closure;
+use super::surface_rule::{decided_halves, lane};
 use crate::bvh::WIDTH;
 use crate::data::TriangleSoup;
-use crate::math::{Vec3, area_vector, perturbed_side_of_plane};
+use crate::math::{Vec3, area_vector};
 use crate::treecode::{Kernel, Lanes, Quadrature};
 use std::sync::Arc;
 use wide::f64x4;
@@ -103,13 +104,16 @@ impl Kernel for Triangles {
         let (a, b, c) = (minus(a, q), minus(b, q), minus(c, q));
         let mut numerator = dot(&a, &normal);
         let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
-        let denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
+        let mut denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
         if block.is_decided {
             let size = la * dot(&u, &u).sqrt() * dot(&v, &v).sqrt();
             let is_small = numerator.abs().simd_le(f64x4::splat(ERROR) * size);
-            let doubtful = (is_small & denominator.simd_le(f64x4::ZERO)).to_bitmask();
+            // On the rim both are 0, to rounding.
+            let doubtful = (is_small & denominator.simd_le(f64x4::splat(ERROR) * la * lb * lc)).to_bitmask();
             if doubtful != 0 {
-                numerator = decided(numerator, doubtful, block, q);
+                let corners =
+                    |k: usize| [&block.corners[0], &block.corners[1], &block.corners[2]].map(|c| lane(c, k));
+                [numerator, denominator] = decided_halves([numerator, denominator], doubtful, q, corners);
             }
         }
         sum.multiply(denominator, numerator);
@@ -128,17 +132,6 @@ impl Kernel for Triangles {
             add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
         }
     }
-}
-
-/// Numerators with the sign that the exact predicate gives q' in the doubtful lanes, where the query lies on a triangle
-/// or next to it: the solid angle of a cap then jumps exactly where its crossing does.
-#[cold]
-fn decided(numerator: f64x4, doubtful: u32, block: &TriangleBlock, q: &Lanes) -> f64x4 {
-    with_signs(numerator, doubtful, |k| {
-        let at = |lanes: &Lanes| Vec3::from_array([0, 1, 2].map(|axis| lanes[axis].to_array()[k]));
-        // Seen from the side to which the normal points the solid angle is negative.
-        f64::from(-perturbed_side_of_plane(at(q), block.corners.each_ref().map(at)))
-    })
 }
 
 /// [`super::edge_gradient`] of four edges, times 4π, given their ends relative to the query.

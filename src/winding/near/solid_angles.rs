@@ -8,9 +8,9 @@ use wide::{f32x4, f64x4};
 
 /// Who decides on which side of a triangle a query lies where rounding leaves it open.
 pub trait Sides {
-    /// Numerators (a − q)·n with the right signs, n = (b − a) × (c − a), given computed ones; the bits of `open` tell the
-    /// lanes in which the sign is not certain. A lane that stays 0 counts as in the plane and contributes nothing.
-    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, numerators: f64x4, open: u32) -> f64x4;
+    /// Numerators (a − q)·n with the right signs, n = (b − a) × (c − a), and denominators, given computed ones; the bits of `open`
+    /// tell the lanes in which the sign is not certain. A numerator that stays 0 counts as in the plane and contributes nothing.
+    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, halves: [f64x4; 2], open: u32) -> [f64x4; 2];
 }
 
 /// Adds the solid angles of a triangle to the sums of some groups of queries, their signs decided by `sides`.
@@ -49,12 +49,13 @@ fn set_precisely<D: Sides>(
         if lanes == 0 {
             continue;
         }
-        let HalfAngle { numerator: mut numerators, denominator, error, .. } = triangle.half_angle(*q);
-        let open = numerators.abs().simd_le(error).to_bitmask();
+        let HalfAngle { numerator, denominator, error, .. } = triangle.half_angle(*q);
+        let open = numerator.abs().simd_le(error).to_bitmask();
+        let mut halves = [numerator, denominator];
         if open != 0 {
-            numerators = sides.decide(corners, q, numerators, open);
+            halves = sides.decide(corners, q, halves, open);
         }
-        let [numerators, denominators] = [numerators, denominator].map(|v| v.to_array());
+        let [numerators, denominators] = halves.map(|v| v.to_array());
         for k in (0..LANES).filter(|k| lanes >> k & 1 == 1) {
             let place = LANES * half + k;
             (to_numerators.0[place], to_denominators.0[place]) = narrowed(numerators[k], denominators[k]);
@@ -238,8 +239,8 @@ mod tests {
     struct AsComputed;
 
     impl Sides for AsComputed {
-        fn decide(&self, _: &[Vec3; 3], _: &Lanes, numerators: f64x4, _: u32) -> f64x4 {
-            numerators
+        fn decide(&self, _: &[Vec3; 3], _: &Lanes, halves: [f64x4; 2], _: u32) -> [f64x4; 2] {
+            halves
         }
     }
 
@@ -247,11 +248,11 @@ mod tests {
     struct Given(f64);
 
     impl Sides for Given {
-        fn decide(&self, corners: &[Vec3; 3], _: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
+        fn decide(&self, corners: &[Vec3; 3], _: &Lanes, halves: [f64x4; 2], open: u32) -> [f64x4; 2] {
             assert_eq!(*corners, TRIANGLE);
-            let mut values = numerators.to_array();
+            let mut values = halves[0].to_array();
             (0..4).filter(|k| open >> k & 1 == 1).for_each(|k| values[k] = self.0);
-            f64x4::from(values)
+            [f64x4::from(values), halves[1]]
         }
     }
 

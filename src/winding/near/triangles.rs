@@ -5,11 +5,11 @@ use super::dipoles::{Dipole, add_fields};
 use super::solid_angles::{NearTriangle, Sides, TRIANGLE_ROUNDING, add_precisely};
 use super::{GROUP, single};
 use crate::data::BLOCK;
-use crate::math::{Registers, Vec3, Work, area_vector, in_widest_registers, perturbed_side_of_plane};
+use crate::math::{Registers, Vec3, Work, area_vector, in_widest_registers};
 use crate::treecode::{
     GROUPS, Kernel, Lanes, NearLeaf, Octet, QueryBlock, SourceKind, Sources, groups_of, parts,
 };
-use crate::winding::angle_product::with_signs;
+use crate::winding::surface_rule::decided_halves;
 use crate::winding::triangles::Triangles;
 use std::f64::consts::PI;
 use wide::f64x4;
@@ -21,15 +21,8 @@ struct AsCrossings {
 }
 
 impl Sides for AsCrossings {
-    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
-        if !self.is_fraction {
-            return numerators;
-        }
-        with_signs(numerators, open, |k| {
-            let q = Vec3::from_array([0, 1, 2].map(|axis| queries[axis].to_array()[k]));
-            // Seen from the side to which the normal points the solid angle is negative.
-            -f64::from(perturbed_side_of_plane(q, *corners))
-        })
+    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, halves: [f64x4; 2], open: u32) -> [f64x4; 2] {
+        if self.is_fraction { decided_halves(halves, open, queries, |_| *corners) } else { halves }
     }
 }
 
