@@ -87,6 +87,24 @@ fn inside_of_an_opening_the_field_is_the_sum_between_any_two_corners() {
 }
 
 #[test]
+fn triangles_without_area_leave_the_field_as_it_is() {
+    let part = without(&cube(1.5), |t| t < 3);
+    let flat = TriangleSoup::new(vec![Vec3::ZERO, Vec3::splat(0.5), Vec3::ONE], vec![[0, 1, 2]]).unwrap();
+    for soup in [flat.clone(), joined(&[part.clone(), flat.clone()]), joined(&[flat, part])] {
+        let shape = Shape::from(soup);
+        let field = WindingField::new(shape.clone(), FieldConfig::default());
+        for t in [-0.25, 0.0, 0.25, 0.5, 0.7, 1.0, 1.2] {
+            let q = Vec3::splat(t);
+            let expected = winding(&shape, q);
+            for accuracy in [Accuracy::EXACT, Accuracy::default()] {
+                assert!((field.at(q, accuracy) - expected).abs() < 1e-3, "{q}: {expected}");
+            }
+            assert_eq!(field.contains_point(q), expected >= 0.5, "{q}: {expected}");
+        }
+    }
+}
+
+#[test]
 fn a_square_and_a_disk_on_their_axes() {
     let square = |half: f64| {
         let corner = |x: f64, y: f64| Vec3::new(half * x, half * y, 0.0);

@@ -119,14 +119,19 @@ pub fn covers(q: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     first != 0 && first == side_of_edge(q, b, c) && first == side_of_edge(q, c, a)
 }
 
-/// Whether q itself lies on a triangle, its rim included; never for a triangle without area.
+/// Whether q itself lies on a triangle, its rim included; of one without area, on one of its edges.
 pub fn touches(q: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     if side_of_plane(q, [a, b, c]) != 0 {
         return false;
     }
     // In the plane, any projection of the triangle that has an area decides.
     let normal = normal_signs([a, b, c]);
-    let Some(axis) = (0..3).find(|axis| normal[*axis] != 0) else { return false };
+    let Some(axis) = (0..3).find(|axis| normal[*axis] != 0) else {
+        let is_on = |s: Vec3, t: Vec3| {
+            s.min(t).cmple(q).all() && q.cmple(s.max(t)).all() && normal_signs([s, t, q]) == [0; 3]
+        };
+        return is_on(a, b) || is_on(b, c) || is_on(c, a);
+    };
     let flat = |p: Vec3| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
     let on_inner_side = |s: Vec3, t: Vec3| orient_in_plane(flat(s), flat(t), flat(q)) * normal[axis] >= 0;
     on_inner_side(a, b) && on_inner_side(b, c) && on_inner_side(c, a)
@@ -224,6 +229,8 @@ mod tests {
         }
         let upright = [Vec3::ZERO, Vec3::X, Vec3::Z];
         assert!(touches(Vec3::new(0.5, 0.0, 0.5), upright));
-        assert!(!touches(Vec3::ZERO, [Vec3::ZERO, Vec3::X, 2.0 * Vec3::X]));
+        let flat = [Vec3::ZERO, Vec3::X, 2.0 * Vec3::X];
+        assert!(touches(Vec3::ZERO, flat) && touches(1.5 * Vec3::X, flat));
+        assert!(!touches(3.0 * Vec3::X, flat) && !touches(Vec3::X + 1e-9 * Vec3::Y, flat));
     }
 }

@@ -87,14 +87,19 @@ pub fn share_of_touching(q: Vec3, touching: &[[Vec3; 3]]) -> f64 {
     let one = |corners: &[Vec3; 3]| {
         Fan::new(q, *corners).solid_angle(Vec3::Y, Vec3::Z, tie_break(*corners)) / (4.0 * PI)
     };
-    touching.iter().map(one).sum()
+    touching.iter().filter(has_area).map(one).sum()
+}
+
+/// Triangles without area have no sides: w is the same on them as beside them.
+fn has_area(corners: &&[Vec3; 3]) -> bool {
+    normal_signs(**corners) != [0; 3]
 }
 
 /// Sine and cosine of half the solid angle of a cap at q', to any factor, given computed ones of which rounding leaves it open what they
 /// are: q is in the plane of the cap or next to it. The solid angle then jumps exactly where the cap's crossing does. On the rim of
 /// the cap, where both are 0, it is that of the half-plane or corner there.
 fn decided_half(q: Vec3, corners: [Vec3; 3], [sine, cosine]: [f64; 2]) -> [f64; 2] {
-    if touches(q, corners) && normal_signs(corners) != [0; 3] {
+    if touches(q, corners) && has_area(&&corners) {
         let fan = Fan::new(q, corners);
         if !matches!(fan.sight, Sight::Plane) {
             let (sine, cosine) = libm::sincos(0.5 * fan.solid_angle(Vec3::Y, Vec3::Z, tie_break(corners)));
@@ -128,7 +133,10 @@ pub fn decided_halves(
 
 /// Whether a region that touches `q` has w ≥ `threshold`, given the principal value at `q` and the triangles it lies on.
 pub fn touches_inside(q: Vec3, touching: &[[Vec3; 3]], principal: f64, threshold: f64) -> bool {
-    let fans: Vec<Fan> = touching.iter().map(|corners| Fan::new(q, *corners)).collect();
+    let fans: Vec<Fan> = touching.iter().filter(has_area).map(|corners| Fan::new(q, *corners)).collect();
+    if fans.is_empty() {
+        return principal >= threshold - ROUNDING;
+    }
     let value = |direction: Vec3, normal: Vec3| {
         let side = |fan: &Fan| if fan.normal.dot(normal) > 0.0 { 1 } else { -1 };
         let sum: f64 = fans.iter().map(|fan| fan.solid_angle(direction, normal, side(fan))).sum();
