@@ -62,6 +62,9 @@ pub fn solve(
             monitor.report(done.clamp(0.0, 1.0), "charges")
         };
         let (change, taken) = cycle(system, &inverse, residual, goal / norm, &|share| report(share * norm))?;
+        if taken == 0 {
+            return Ok(Solution { charges: kept, steps });
+        }
         charges.iter_mut().zip(change).for_each(|(charge, change)| *charge += change);
         steps += taken;
         goal *= RMS_SHARE;
