@@ -86,6 +86,68 @@ fn inside_of_an_opening_the_field_is_the_sum_between_any_two_corners() {
     }
 }
 
+/// Two damaged cuboids and a flat part, of which three closing triangles meet in a diagonal of one.
+#[test]
+fn on_a_diagonal_of_closing_triangles_the_field_is_the_sum() {
+    let part = |first: u32, triangles: &[[u32; 3]]| triangles.iter().map(|t| t.map(|v| first + v)).collect();
+    let flat: Vec<[u32; 3]> = part(
+        0,
+        &[
+            [0, 4, 6],
+            [0, 6, 2],
+            [1, 3, 7],
+            [3, 7, 1],
+            [1, 7, 5],
+            [7, 5, 1],
+            [0, 1, 5],
+            [0, 5, 4],
+            [5, 4, 0],
+            [2, 6, 7],
+            [6, 7, 2],
+            [2, 7, 3],
+            [7, 3, 2],
+            [0, 3, 1],
+            [4, 5, 7],
+            [4, 7, 6],
+        ],
+    );
+    let needle: Vec<[u32; 3]> = part(8, &[[0, 2, 1], [1, 3, 2], [2, 0, 3]]);
+    let cuboid: Vec<[u32; 3]> = part(
+        12,
+        &[
+            [0, 4, 6],
+            [4, 6, 0],
+            [0, 2, 6],
+            [1, 7, 5],
+            [0, 5, 1],
+            [0, 5, 4],
+            [2, 3, 7],
+            [0, 3, 1],
+            [4, 5, 7],
+            [4, 6, 7],
+        ],
+    );
+    let corners = |low: Vec3, high: Vec3| {
+        let side = move |k: usize, bit: usize| if k >> bit & 1 == 1 { high[bit] } else { low[bit] };
+        (0..8).map(move |k| Vec3::new(side(k, 0), side(k, 1), side(k, 2)))
+    };
+    let mut positions: Vec<Vec3> = corners(Vec3::new(0.7, 0.7, 2.7), Vec3::splat(2.7)).collect();
+    positions
+        .extend([[1.7, 0.7, 1.7], [2.7, 1.7, 3.7], [2.7, 1.7, 1.7], [2.7, 1.7, 3.7]].map(Vec3::from_array));
+    positions.extend(corners(Vec3::splat(0.7), Vec3::splat(3.7)));
+    let shape = Shape::from(TriangleSoup::new(positions, [flat, needle, cuboid].concat()).unwrap());
+    let field = WindingField::new(shape.clone(), FieldConfig { leaf_size: 3, ..Default::default() });
+    let queries: Vec<Vec3> = (1..40).map(|k| Vec3::splat(0.7 + 0.075 * f64::from(k))).collect();
+    let queries = [vec![Vec3::splat(1.449_735_915_968_074_5)], queries].concat();
+    let together = field.evaluate(&queries, Accuracy::default(), &Silent).unwrap();
+    for (q, found) in queries.into_iter().zip(together) {
+        let expected = winding(&shape, q);
+        let singly = field.at(q, Accuracy::default());
+        assert!((singly - expected).abs() < 1e-3, "{q}: {singly} instead of {expected}");
+        assert!((found - expected).abs() < 1e-3, "{q}: {found} instead of {expected}, among others");
+    }
+}
+
 #[test]
 fn triangles_without_area_leave_the_field_as_it_is() {
     let part = without(&cube(1.5), |t| t < 3);
