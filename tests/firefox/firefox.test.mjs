@@ -5,7 +5,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { install } from '../package/install.mjs';
-import { FOR_ALL, ISOLATED, answers, ask, serve } from '../package/pages.mjs';
+import { testOrigins } from '../package/origins.mjs';
+import { FOR_ALL, ISOLATED, serve } from '../package/pages.mjs';
 import { serve as servePage } from '../page/serve.mjs';
 import { visitor } from './visits.mjs';
 
@@ -36,29 +37,7 @@ function inPage(server, origin, file, action) {
   return firefox.visit(server.origin + path);
 }
 
-test('an isolated page gets threads', async () => {
-  const { threads, reason, ...rest } = await inPage(servers.isolated, servers.isolated.origin, 'index.js', ask);
-  assert.deepEqual(rest, { ...answers, isolated: true });
-  assert.ok(threads >= 1);
-  assert.match(reason, /threads: one for each processor/);
-});
-
-test('a page that is not isolated gets the single-threaded build and the reason', async () => {
-  const { reason, ...rest } = await inPage(servers.plain, servers.plain.origin, 'index.js', ask);
-  assert.deepEqual(rest, { ...answers, isolated: false, threads: 0 });
-  assert.match(reason, /not cross-origin isolated/);
-});
-
-test('the package may come from another origin, threads included', async () => {
-  const { threads, reason, ...rest } = await inPage(servers.isolated, servers.plain.origin, 'index.js', ask);
-  assert.deepEqual(rest, { ...answers, isolated: true });
-  assert.ok(threads >= 1, reason);
-});
-
-test('the synchronous entry works on the page itself', async () => {
-  const { inside, centre, threads } = await inPage(servers.plain, servers.plain.origin, 'sync.js', ask);
-  assert.deepEqual([inside, centre, threads], [[1, 0], '1.00', 0]);
-});
+testOrigins(servers, inPage);
 
 /** Numbers of many capabilities, of a torus with a hole; run in the page and in Node. */
 async function numbers({ init }, options) {

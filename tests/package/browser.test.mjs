@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch } from '../page/browser.mjs';
 import { install } from './install.mjs';
+import { testOrigins } from './origins.mjs';
 import { FOR_ALL, ISOLATED, answers, ask, inPage as evaluate, serve } from './pages.mjs';
 
 const { home } = install();
@@ -24,24 +25,7 @@ after(async () => {
 
 const inPage = (server, origin, file, action) => evaluate(chromium, server, origin, file, action);
 
-test('an isolated page gets threads', async () => {
-  const { threads, reason, ...rest } = await inPage(servers.isolated, servers.isolated.origin, 'index.js', ask);
-  assert.deepEqual(rest, { ...answers, isolated: true });
-  assert.ok(threads >= 1);
-  assert.match(reason, /threads: one for each processor/);
-});
-
-test('a page that is not isolated gets the single-threaded build and the reason', async () => {
-  const { reason, ...rest } = await inPage(servers.plain, servers.plain.origin, 'index.js', ask);
-  assert.deepEqual(rest, { ...answers, isolated: false, threads: 0 });
-  assert.match(reason, /not cross-origin isolated/);
-});
-
-test('the package may come from another origin, threads included', async () => {
-  const { threads, reason, ...rest } = await inPage(servers.isolated, servers.plain.origin, 'index.js', ask);
-  assert.deepEqual(rest, { ...answers, isolated: true });
-  assert.ok(threads >= 1, reason);
-});
+testOrigins(servers, inPage);
 
 test('worker and WebAssembly may lie elsewhere than the script', async () => {
   const { origin } = servers.plain;
@@ -57,11 +41,6 @@ test('a strict policy for content is enough, with threads', async () => {
   const { threads, reason, ...rest } = await inPage(servers.strict, servers.strict.origin, 'index.js', ask);
   assert.deepEqual(rest, { ...answers, isolated: true });
   assert.ok(threads >= 1, reason);
-});
-
-test('the synchronous entry works on the page itself', async () => {
-  const { inside, centre, threads } = await inPage(servers.plain, servers.plain.origin, 'sync.js', ask);
-  assert.deepEqual([inside, centre, threads], [[1, 0], '1.00', 0]);
 });
 
 test('an abort takes effect in both builds, and the page stays responsive meanwhile', async () => {
