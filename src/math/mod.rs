@@ -17,7 +17,7 @@ pub use glam::{DAffine3 as Affine, DMat3 as Mat3, DVec2 as Vec2, DVec3 as Vec3};
 pub use plane::{PlaneFit, fit_plane};
 pub use predicates::{
     Sign, covers, meet, normal_signs, orient, orient_yz, perturbed_side_of_plane, side_of_edge,
-    side_of_plane, tie_break, touches,
+    side_of_plane, tie_break, touches, touches_segment,
 };
 pub(crate) use random::{Random, fraction, hashed, mixed};
 pub use ray::Ray;

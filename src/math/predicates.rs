@@ -119,6 +119,12 @@ pub fn covers(q: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     first != 0 && first == side_of_edge(q, b, c) && first == side_of_edge(q, c, a)
 }
 
+/// Whether q itself lies on a segment, its ends included.
+pub fn touches_segment(q: Vec3, [a, b]: [Vec3; 2]) -> bool {
+    let is_within = a.min(b).cmple(q).all() && q.cmple(a.max(b)).all();
+    is_within && normal_signs([a, b, q]) == [0; 3]
+}
+
 /// Whether q itself lies on a triangle, its rim included; of one without area, on one of its edges.
 pub fn touches(q: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     if side_of_plane(q, [a, b, c]) != 0 {
@@ -127,10 +133,7 @@ pub fn touches(q: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     // In the plane, any projection of the triangle that has an area decides.
     let normal = normal_signs([a, b, c]);
     let Some(axis) = (0..3).find(|axis| normal[*axis] != 0) else {
-        let is_on = |s: Vec3, t: Vec3| {
-            s.min(t).cmple(q).all() && q.cmple(s.max(t)).all() && normal_signs([s, t, q]) == [0; 3]
-        };
-        return is_on(a, b) || is_on(b, c) || is_on(c, a);
+        return touches_segment(q, [a, b]) || touches_segment(q, [b, c]) || touches_segment(q, [c, a]);
     };
     let flat = |p: Vec3| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
     let on_inner_side = |s: Vec3, t: Vec3| orient_in_plane(flat(s), flat(t), flat(q)) * normal[axis] >= 0;

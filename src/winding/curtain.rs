@@ -10,7 +10,7 @@
 //! that of the exact predicate which also decides the crossing.
 use super::angle_product::{AngleProduct, with_signs};
 use crate::bvh::WIDTH;
-use crate::math::{Vec3, normal_signs, side_of_edge};
+use crate::math::{Vec3, side_of_edge, touches_segment};
 use wide::f64x4;
 
 /// Queries evaluated together.
@@ -58,10 +58,7 @@ impl Curtain {
 
     /// Whether `q` lies on a boundary edge.
     pub fn touches(&self, q: Vec3) -> bool {
-        self.each_edge().any(|[a, b]| {
-            let is_within = a.min(b).cmple(q).all() && q.cmple(a.max(b)).all();
-            is_within && normal_signs([a, b, q]) == [0; 3]
-        })
+        self.each_edge().any(|edge| touches_segment(q, edge))
     }
 
     /// Σ (solid angles of the curtains) / 4π at four queries. Not defined on a boundary edge itself.
