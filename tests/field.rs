@@ -5,7 +5,7 @@ use common::*;
 use fast_winding::data::{Lattice, Shape, Silent, TriangleSoup};
 use fast_winding::math::{Aabb, Vec3, distance_to_triangle};
 use fast_winding::winding::{
-    Accuracy, FieldConfig, Order, WindingField, winding, winding_of_cloud, winding_of_soup,
+    Accuracy, FieldConfig, Order, WindingField, winding, winding_gradient, winding_of_cloud, winding_of_soup,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -59,31 +59,60 @@ fn principal_values_on_a_cube() {
     }
 }
 
-/// Openings are closed by triangles that are not there: on edges between two of these the field is smooth, too.
+/// Openings are closed by triangles that are not there: on edges between two of these, and beside them by less than rounding
+/// tells, the field is smooth, too.
 #[test]
 fn inside_of_an_opening_the_field_is_the_sum_between_any_two_corners() {
     let box_ = cube(1.5);
+    let apart = |soup: TriangleSoup, k: usize| moved(&soup, Vec3::new(30.0, 4.0 * k as f64, 0.0));
+    // More openings, that a tree is asked for; and more loose triangles, that one is for many points.
+    let boxes: Vec<TriangleSoup> = (0..10).map(|k| apart(without(&box_, |t| t == k), k)).collect();
+    let loose: Vec<TriangleSoup> = (0..700).map(|k| apart(without(&box_, |t| t != k % 12), k)).collect();
     // Corners in one plane, and others that make triangles at angles.
     for dropped in [vec![0], vec![0, 1], vec![0, 2], vec![3, 8], vec![0, 1, 5, 6], vec![2, 5, 7, 9, 11]] {
         let soup = without(&box_, |t| dropped.contains(&t));
-        let corners = soup.positions();
-        let pairs = (0..corners.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let queries: Vec<Vec3> = pairs
-            .flat_map(|(i, j)| [0.25, 0.5, 0.75].map(|share| corners[i].lerp(corners[j], share)))
-            .filter(|q| (0..soup.len()).all(|t| distance_to_triangle(*q, soup.corners(t)) > 1e-3))
-            .collect();
-        assert!(queries.len() > 10, "{}", queries.len());
-        let shape = Shape::from(soup);
-        let field = WindingField::new(shape.clone(), FieldConfig { leaf_size: 1, ..Default::default() });
-        let together = field.evaluate(&queries, Accuracy::default(), &Silent).unwrap();
-        for (q, found) in queries.iter().zip(together) {
-            let expected = winding(&shape, *q);
-            let singly = field.at(*q, Accuracy::default());
-            for w in [singly, found, field.at(*q, Accuracy::EXACT)] {
-                assert!((w - expected).abs() < 1e-3, "{dropped:?} {q}: {w} instead of {expected}");
+        let queries = between_corners(&soup);
+        for company in [&[][..], &boxes, &loose] {
+            let shape = Shape::from(joined(&[std::slice::from_ref(&soup), company].concat()));
+            let field = WindingField::new(shape.clone(), FieldConfig { leaf_size: 1, ..Default::default() });
+            let together = field.evaluate(&queries, Accuracy::default(), &Silent).unwrap();
+            let inside = field.contains(&queries, &Silent).unwrap();
+            for ((q, found), is_inside) in queries.iter().zip(together).zip(inside) {
+                let expected = winding(&shape, *q);
+                let singly = field.at(*q, Accuracy::default());
+                for w in [singly, found, field.at(*q, Accuracy::EXACT)] {
+                    assert!((w - expected).abs() < 1e-3, "{dropped:?} {q}: {w} instead of {expected}");
+                }
+                if (expected - 0.5).abs() > 1e-9 {
+                    assert_eq!(is_inside, expected > 0.5, "{dropped:?} {q}: {expected}");
+                    assert_eq!(field.contains_point(*q), expected > 0.5, "{dropped:?} {q}: {expected}");
+                }
+                let gradient = winding_gradient(&shape, *q);
+                for g in [Accuracy::default(), Accuracy::EXACT].map(|accuracy| field.gradient(*q, accuracy)) {
+                    assert!((g - gradient).length() < 1e-2, "{dropped:?} {q}: {g} instead of {gradient}");
+                }
             }
         }
     }
+}
+
+/// Points between the corners of a soup, at some distance from it: many to the last bit on the line, others next to it.
+fn between_corners(soup: &TriangleSoup) -> Vec<Vec3> {
+    let corners = soup.positions();
+    let pairs = (0..corners.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let on_edges: Vec<Vec3> = pairs
+        .flat_map(|(i, j)| [0.25, 0.3, 0.5, 0.75].map(|share| corners[i].lerp(corners[j], share)))
+        .filter(|q| (0..soup.len()).all(|t| distance_to_triangle(*q, soup.corners(t)) > 1e-3))
+        .collect();
+    assert!(on_edges.len() > 10, "{}", on_edges.len());
+    let offsets = [0.0, 1e-17, 1e-16, 3e-16, 1e-15, 1e-13, 1e-9, 1e-6, 1e-4];
+    let beside = |q: &Vec3| offsets.map(|off| *q + off * Vec3::new(1.0, -0.6, 0.3));
+    on_edges.iter().flat_map(beside).collect()
+}
+
+fn moved(soup: &TriangleSoup, by: Vec3) -> TriangleSoup {
+    let positions = soup.positions().iter().map(|p| *p + by).collect();
+    TriangleSoup::new(positions, soup.triangles().to_vec()).unwrap()
 }
 
 /// Two damaged cuboids and a flat part, of which three closing triangles meet in a diagonal of one.

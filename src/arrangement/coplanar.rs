@@ -2,10 +2,9 @@
 use super::LEAF;
 use super::refine::Work;
 use super::triangulate::shares;
-use super::twofold::Twofold;
 use crate::bvh::Bvh;
 use crate::data::{Cancelled, Monitor};
-use crate::math::Aabb;
+use crate::math::{Aabb, Twofold};
 
 /// Places nearer to an edge than this share of the triangle's height lie on it.
 const RIM: f64 = 1e-12;

@@ -1,7 +1,7 @@
 //! Triangles cut along each other, so that what is left meets only in whole edges and vertices.
 //!
 //! Whether and how two triangles meet is decided by exact predicates (`contacts`). Each point that this makes has a name, so
-//! that all triangles around share it, and coordinates of twice the precision (`twofold`, `points`), so that those computed
+//! that all triangles around share it, and coordinates of twice the precision (`points`), so that those computed
 //! in different ways are equal after rounding; what rounded input puts next to each other is one point (`cells`). A triangle is
 //! cut by a constrained Delaunay triangulation in its own coordinates, where the points of its edges lie exactly on them
 //! (`triangulate`, `edges`); where segments in it cross, the crossing goes to the other triangles that have them too, until
@@ -13,7 +13,6 @@ mod edges;
 mod points;
 mod refine;
 mod triangulate;
-mod twofold;
 
 use crate::bvh::Bvh;
 use crate::data::{Cancelled, Monitor, Parts, map_items, map_tasks};

@@ -1,9 +1,8 @@
 //! The points of an arrangement: the given vertices, and those that are made, each once.
 use super::cells::Cells;
 use super::contacts::Key;
-use super::twofold::{Place, Twofold};
 use crate::data::map_items;
-use crate::math::Vec3;
+use crate::math::{Place, Twofold, Vec3};
 
 /// Vertices by number: first those given, then those made, in twice the precision. None is made next to one that was named or made.
 pub struct Points {

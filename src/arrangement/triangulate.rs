@@ -6,7 +6,7 @@
 use super::contacts::edge;
 use super::edges::Edges;
 use super::points::Points;
-use super::twofold::Place;
+use crate::math::Place;
 use rustc_hash::FxHashSet;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};

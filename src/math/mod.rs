@@ -9,6 +9,7 @@ mod ray;
 mod registers;
 mod triangle;
 mod triangles_meet;
+mod twofold;
 
 pub use aabb::Aabb;
 pub use chebyshev::{Nodes, bernstein, lebesgue};
@@ -22,5 +23,6 @@ pub use predicates::{
 pub(crate) use random::{Random, fraction, hashed, mixed};
 pub use ray::Ray;
 pub use registers::{Floats, Plain, Registers, Work, in_widest_registers};
-pub use triangle::{area_vector, barycentre, distance_to_triangle, signed_volume, solid_angle};
+pub use triangle::{area_vector, barycentre, distance_to_triangle, normal, signed_volume, solid_angle};
 pub use triangles_meet::triangles_meet;
+pub(crate) use twofold::{Place, Twofold};

@@ -1,10 +1,22 @@
 //! The solid angle of a triangle: van Oosterom & Strackee 1983; Barill et al. 2018, eq. 1.
-use super::Vec3;
+use super::{Place, Vec3};
 
 /// The normal of triangle `abc` scaled by its area: ½ (b − a) × (c − a).
 #[inline]
 pub fn area_vector([a, b, c]: [Vec3; 3]) -> Vec3 {
     0.5 * (b - a).cross(c - a)
+}
+
+/// The unit normal of triangle `abc`, to rounding however thin it is, as far as numbers of twice the precision reach; zero where they
+/// see no area.
+pub fn normal(corners: [Vec3; 3]) -> Vec3 {
+    let [a, b, c] = corners.map(Place::from);
+    let exact = b.minus(a).cross(c.minus(a));
+    if exact.is_finite() {
+        exact.rounded().normalize_or_zero()
+    } else {
+        area_vector(corners).normalize_or_zero()
+    }
 }
 
 /// The volume between triangle `abc` and `apex`, negative where the normal points to the side of `apex`: over all triangles of a
@@ -64,6 +76,16 @@ mod tests {
         assert!((solid_angle(Vec3::ZERO, octant) - PI / 2.0).abs() < 1e-15);
         let [a, b, c] = octant;
         assert!((solid_angle(Vec3::ZERO, [a, c, b]) + PI / 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_thinnest_triangles_have_normals() {
+        // Off the line by a unit in the last place, far from the origin: differences of rounded products see nothing of it.
+        let end = Vec3::new(3.0, 3.0, 3.0);
+        let aside = Vec3::new(1.0, 1.0 + f64::EPSILON, 1.0);
+        let found = normal([Vec3::ZERO, end, aside]);
+        assert!((found - Vec3::new(-1.0, 0.0, 1.0).normalize()).length() < 1e-15, "{found}");
+        assert_eq!(normal([Vec3::ZERO, end, Vec3::ONE]), Vec3::ZERO);
     }
 
     #[test]

@@ -35,6 +35,15 @@ impl AngleProduct {
         self.imaginary = new_imaginary * scale;
     }
 
+    /// Multiplies one lane by more factors, which leaves the others as they are, and adds whole turns to it.
+    pub fn multiply_lane(&mut self, lane: usize, factors: &[[f64; 2]], turns: f64) {
+        let place = |value: f64, rest: f64| {
+            f64x4::from(std::array::from_fn(|k| if k == lane { value } else { rest }))
+        };
+        factors.iter().for_each(|[real, imaginary]| self.multiply(place(*real, 1.0), place(*imaginary, 0.0)));
+        self.wraps += place(turns, 0.0);
+    }
+
     /// The sum over all lanes, over 2π.
     pub fn turns(self) -> f64 {
         let [real, imaginary, wraps] = [self.real, self.imaginary, self.wraps].map(|v| v.to_array());

@@ -113,9 +113,26 @@ fn end(p: Vec3, q: &[f64x4; 3]) -> End {
     End { s: on_axis.bitselect(f64x4::ZERO, s), y, z }
 }
 
+/// The factors of the edges of a triangle at a query, real and imaginary part: their arguments and 2π for each crossing by the
+/// ray along +x make up half its solid angle. In two triangles that share an edge, its factors are exactly conjugate.
+pub fn factors_of(triangle: &[Vec3; 3], q: Vec3) -> [[f64; 2]; 3] {
+    let ends = triangle.map(|p| end(p, &q.to_array().map(f64x4::splat)));
+    [0, 1, 2].map(|k| {
+        let next = (k + 1) % 3;
+        factors(&ends[k], &ends[next], [triangle[k], triangle[next]], &[q; LANES])
+            .map(|part| part.to_array()[0])
+    })
+}
+
 /// Multiplies by the factors of an edge, one for each query.
 #[inline(always)]
 fn multiply(product: &mut AngleProduct, a: &End, b: &End, edge: [Vec3; 2], queries: &[Vec3; LANES]) {
+    let [real, imaginary] = factors(a, b, edge, queries);
+    product.multiply(real, imaginary);
+}
+
+#[inline(always)]
+fn factors(a: &End, b: &End, edge: [Vec3; 2], queries: &[Vec3; LANES]) -> [f64x4; 2] {
     let real = a.s * b.s + a.y * b.y + a.z * b.z;
     let (left, right) = (a.y * b.z, a.z * b.y);
     let mut imaginary = left - right;
@@ -124,7 +141,7 @@ fn multiply(product: &mut AngleProduct, a: &End, b: &End, edge: [Vec3; 2], queri
     if doubtful.any() {
         imaginary = decided(imaginary, doubtful, edge, queries);
     }
-    product.multiply(real, imaginary);
+    [real, imaginary]
 }
 
 /// Imaginary parts with the signs of the exact predicate in the doubtful lanes.

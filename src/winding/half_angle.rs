@@ -4,6 +4,10 @@ use crate::math::{Floats, Vec3};
 /// orient3d), with what the bound's own computation may lose.
 const NUMERATOR_ERROR: f64 = 8.0 * (f64::EPSILON / 2.0);
 
+/// Of the sums of absolute values that numerator and denominator are made of they must be this share for the solid angle of a cap to
+/// be good to 1e-10 turns: else the query is close to its plane or an edge, and edges and crossings tell it exactly.
+pub const LEAST_OF_CAP: f64 = 1e-5;
+
 /// A triangle whose solid angle is asked for in 64-bit floats.
 pub struct Triangle {
     corners: [[f64; 3]; 3],
@@ -48,6 +52,18 @@ impl Triangle {
         let ab = la * lb;
         let denominator = (ab + dot(a, b)) * lc + (dot(b, c) * la + dot(c, a) * lb);
         HalfAngle { numerator, denominator, error, lengths: ab * lc }
+    }
+}
+
+impl<F: Floats<Number = f64>> HalfAngle<F> {
+    /// The lanes in which the sign is certain, and numerator and denominator are not so small that rounding is more than some
+    /// ε / `least` of the angle: that they are where the query is close to an edge.
+    #[inline(always)]
+    pub fn is_certain(&self, least: f64) -> u32 {
+        let size = self.numerator.abs();
+        let magnitudes = self.lengths + self.error * F::splat(1.0 / NUMERATOR_ERROR);
+        let is_large = (size + self.denominator.abs()).greater(F::splat(least) * magnitudes);
+        is_large & size.greater(self.error)
     }
 }
 

@@ -3,10 +3,8 @@
 //! Close to a point q of the surface the triangles that it lies on look like sectors of planes with their apex in q. Seen
 //! from q + δ with an infinitely small δ, a sector between the directions u and v spans the spherical triangle
 //! (−δ, u, v). So w(q + δ) = (principal value) + Σ (those solid angles) / 4π: constant over each region between sectors.
-use crate::math::{Sign, Vec3, normal_signs, perturbed_side_of_plane, tie_break, touches};
-use crate::treecode::Lanes;
+use crate::math::{Sign, Vec3, normal, normal_signs, tie_break};
 use std::f64::consts::{PI, TAU};
-use wide::f64x4;
 
 /// Directions closer to a plane than this count as in it.
 const FLAT: f64 = 1e-12;
@@ -32,8 +30,7 @@ struct Fan {
 
 impl Fan {
     fn new(q: Vec3, corners: [Vec3; 3]) -> Fan {
-        let [a, b, c] = corners;
-        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let normal = normal(corners);
         let is_beside = |k: &usize| normal_signs([corners[*k], corners[(*k + 1) % 3], q]) != [0; 3];
         let sides: Vec<usize> = (0..3).filter(is_beside).collect();
         let rim = corners.map(|p| (p - q).normalize_or_zero());
@@ -93,42 +90,6 @@ pub fn share_of_touching(q: Vec3, touching: &[[Vec3; 3]]) -> f64 {
 /// Triangles without area have no sides: w is the same on them as beside them.
 fn has_area(corners: &&[Vec3; 3]) -> bool {
     normal_signs(**corners) != [0; 3]
-}
-
-/// Sine and cosine of half the solid angle of a cap at q', to any factor, given computed ones of which rounding leaves it open what they
-/// are: q is in the plane of the cap or next to it. The solid angle then jumps exactly where the cap's crossing does. On the rim of
-/// the cap, where both are 0, it is that of the half-plane or corner there.
-fn decided_half(q: Vec3, corners: [Vec3; 3], [sine, cosine]: [f64; 2]) -> [f64; 2] {
-    if touches(q, corners) && has_area(&&corners) {
-        let fan = Fan::new(q, corners);
-        if !matches!(fan.sight, Sight::Plane) {
-            let (sine, cosine) = libm::sincos(0.5 * fan.solid_angle(Vec3::Y, Vec3::Z, tie_break(corners)));
-            return [sine, cosine];
-        }
-    }
-    // Seen from the side to which the normal points the solid angle is negative.
-    let sign = -f64::from(perturbed_side_of_plane(q, corners));
-    [sign * sine.abs().max(f64::MIN_POSITIVE), cosine]
-}
-
-/// The point in a lane.
-pub fn lane(points: &Lanes, k: usize) -> Vec3 {
-    Vec3::from_array([0, 1, 2].map(|axis| points[axis].to_array()[k]))
-}
-
-/// [`decided_half`] in the lanes that are set in `open`: sines and cosines at queries of triangles.
-#[cold]
-pub fn decided_halves(
-    [sines, cosines]: [f64x4; 2],
-    open: u32,
-    queries: &Lanes,
-    corners: impl Fn(usize) -> [Vec3; 3],
-) -> [f64x4; 2] {
-    let (mut sines, mut cosines) = (sines.to_array(), cosines.to_array());
-    for k in (0..4).filter(|k| open >> k & 1 == 1) {
-        [sines[k], cosines[k]] = decided_half(lane(queries, k), corners(k), [sines[k], cosines[k]]);
-    }
-    [f64x4::from(sines), f64x4::from(cosines)]
 }
 
 /// Whether a region that touches `q` has w ≥ `threshold`, given the principal value at `q` and the triangles it lies on.

@@ -1,16 +1,21 @@
 //! Triangles as sources: solid angles near, dipole moments far (Barill et al. 2018, section 3.3).
-use super::angle_product::AngleProduct;
-use super::closure::Closure;
-use super::surface_rule::{decided_halves, lane};
+use super::angle_product::{AngleProduct, with_signs};
+use super::closure::{Closure, crossings_of_caps};
+use super::curtain::factors_of;
+use super::half_angle::LEAST_OF_CAP;
 use crate::bvh::WIDTH;
-use crate::data::TriangleSoup;
-use crate::math::{Vec3, area_vector};
+use crate::data::{TriangleSoup, ones};
+use crate::math::{Vec3, area_vector, perturbed_side_of_plane};
 use crate::treecode::{Kernel, Lanes, Quadrature};
 use std::sync::Arc;
 use wide::f64x4;
 
 /// Relative rounding error of a triple product of differences, with a margin.
 const ERROR: f64 = 16.0 * f64::EPSILON;
+
+/// Squared sine between an edge of a cap and the query below which there is no gradient (NaN). What the caps on both sides add
+/// cancels, but grows as 1/distance, and with it what rounding leaves of it.
+const BESIDE: f64 = 1e-18;
 
 /// All triangles of a soup; or with a closure the sources of the soup's fraction: its caps, then its loose triangles.
 #[derive(Clone)]
@@ -44,8 +49,10 @@ impl Triangles {
 #[derive(Clone)]
 pub struct TriangleBlock {
     corners: [Lanes; 3],
-    /// Whether exact predicates tell the side of a query where rounding leaves it open.
-    is_decided: bool,
+    /// The lanes of a fraction's caps and of its loose triangles, a bit each: where rounding leaves solid angles open, exact
+    /// predicates decide.
+    caps: u32,
+    loose: u32,
 }
 
 impl TriangleBlock {
@@ -53,8 +60,38 @@ impl TriangleBlock {
     pub fn new(triangles: [Option<[Vec3; 3]>; WIDTH]) -> TriangleBlock {
         let triangles = triangles.map(|t| t.unwrap_or([Vec3::ZERO; 3]));
         let lanes = |corner: usize, axis: usize| f64x4::from(triangles.map(|t| t[corner][axis]));
-        TriangleBlock { corners: [0, 1, 2].map(|c| [0, 1, 2].map(|axis| lanes(c, axis))), is_decided: false }
+        TriangleBlock { corners: [0, 1, 2].map(|c| [0, 1, 2].map(|axis| lanes(c, axis))), caps: 0, loose: 0 }
     }
+
+    fn triangle(&self, lane: usize) -> [Vec3; 3] {
+        self.corners.each_ref().map(|c| point_of(c, lane))
+    }
+
+    /// Numerators, 0 in the lanes of `caps` that hold a cap: that is added by its edges and its crossing. Those of loose
+    /// triangles in the lanes of `flat`, in the plane of which the query lies to rounding, have the sign of the exact predicate.
+    #[cold]
+    fn decided(&self, sum: &mut AngleProduct, numerators: f64x4, [near, flat]: [u32; 2], q: &Lanes) -> f64x4 {
+        let mut parts = numerators.to_array();
+        for lane in ones(u64::from(near & self.caps)) {
+            let (cap, q) = (self.triangle(lane), point_of(q, lane));
+            sum.multiply_lane(lane, &factors_of(&cap, q), -f64::from(crossings_of_caps(&[cap], q)));
+            parts[lane] = 0.0;
+        }
+        with_signs(f64x4::from(parts), flat & self.loose, |lane| {
+            side_of_loose(self.triangle(lane), point_of(q, lane))
+        })
+    }
+}
+
+/// The sign of the numerator of a loose triangle at q'.
+pub(super) fn side_of_loose(corners: [Vec3; 3], q: Vec3) -> f64 {
+    // Seen from the side to which the normal points the solid angle is negative.
+    -f64::from(perturbed_side_of_plane(q, corners))
+}
+
+/// The point in a lane.
+pub(super) fn point_of(points: &Lanes, lane: usize) -> Vec3 {
+    Vec3::from_array([0, 1, 2].map(|axis| points[axis].to_array()[lane]))
 }
 
 impl Kernel for Triangles {
@@ -86,7 +123,14 @@ impl Kernel for Triangles {
 
     fn block(&self, members: [Option<usize>; WIDTH]) -> TriangleBlock {
         let block = TriangleBlock::new(members.map(|m| m.map(|i| self.corners(i))));
-        TriangleBlock { is_decided: self.is_fraction(), ..block }
+        if !self.is_fraction() {
+            return block;
+        }
+        let lanes = |is_one: &dyn Fn(usize) -> bool| {
+            (0..WIDTH).fold(0, |lanes, k| lanes | u32::from(members[k].is_some_and(is_one)) << k)
+        };
+        let caps = self.caps();
+        TriangleBlock { caps: lanes(&|i| i < caps), loose: lanes(&|i| i >= caps), ..block }
     }
 
     fn mode(&self) {}
@@ -104,16 +148,15 @@ impl Kernel for Triangles {
         let (a, b, c) = (minus(a, q), minus(b, q), minus(c, q));
         let mut numerator = dot(&a, &normal);
         let (la, lb, lc) = (dot(&a, &a).sqrt(), dot(&b, &b).sqrt(), dot(&c, &c).sqrt());
-        let mut denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
-        if block.is_decided {
+        let denominator = la * lb * lc + dot(&a, &b) * lc + dot(&b, &c) * la + dot(&c, &a) * lb;
+        if block.caps | block.loose != 0 {
             let size = la * dot(&u, &u).sqrt() * dot(&v, &v).sqrt();
-            let is_small = numerator.abs().simd_le(f64x4::splat(ERROR) * size);
-            // On the rim both are 0, to rounding.
-            let doubtful = (is_small & denominator.simd_le(f64x4::splat(ERROR) * la * lb * lc)).to_bitmask();
-            if doubtful != 0 {
-                let corners =
-                    |k: usize| [&block.corners[0], &block.corners[1], &block.corners[2]].map(|c| lane(c, k));
-                [numerator, denominator] = decided_halves([numerator, denominator], doubtful, q, corners);
+            let small = f64x4::splat(LEAST_OF_CAP) * (size + la * lb * lc);
+            let near = (numerator.abs().simd_le(small) & denominator.simd_le(small)).to_bitmask();
+            if near != 0 {
+                let is_flat = numerator.abs().simd_le(f64x4::splat(ERROR) * size);
+                let flat = (is_flat & denominator.simd_le(f64x4::ZERO)).to_bitmask();
+                numerator = block.decided(sum, numerator, [near, flat], q);
             }
         }
         sum.multiply(denominator, numerator);
@@ -129,17 +172,27 @@ impl Kernel for Triangles {
         let lengths = relative.each_ref().map(|r| dot(r, r).sqrt());
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
             let along = minus(&block.corners[j], &block.corners[i]);
-            add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
+            let sine_squared = add_edge(sum, [&relative[i], &relative[j]], [lengths[i], lengths[j]], &along);
+            let is_beside =
+                block.caps != 0 && sine_squared.simd_lt(f64x4::splat(BESIDE)).to_bitmask() & block.caps != 0;
+            if is_beside {
+                sum[0] = f64x4::splat(f64::NAN);
+            }
         }
     }
 }
 
-/// [`super::edge_gradient`] of four edges, times 4π, given their ends relative to the query.
+/// Adds [`super::edge_gradient`] of four edges, times 4π, given their ends relative to the query. Gives the squared sines between these
+/// and the edges.
 #[inline(always)]
-fn add_edge(sum: &mut Lanes, [a, b]: [&Lanes; 2], [la, lb]: [f64x4; 2], along: &Lanes) {
+fn add_edge(sum: &mut Lanes, [a, b]: [&Lanes; 2], [la, lb]: [f64x4; 2], along: &Lanes) -> f64x4 {
     let one = f64x4::ONE;
-    let is_a_nearer = la.simd_le(lb);
-    let near = [0, 1, 2].map(|i| is_a_nearer.bitselect(a[i], b[i]));
+    // With both as near as each other it is their middle: of an edge and of the same turned around they are to cancel exactly.
+    let (is_a_nearer, is_b_nearer) = (la.simd_lt(lb), lb.simd_lt(la));
+    let near = [0, 1, 2].map(|i| {
+        let middle = f64x4::splat(0.5) * (a[i] + b[i]);
+        is_a_nearer.bitselect(a[i], is_b_nearer.bitselect(b[i], middle))
+    });
     let inverse = one / (la * lb);
     let sine = cross(&near, along).map(|c| c * inverse);
     let sine_squared = dot(&sine, &sine);
@@ -151,6 +204,7 @@ fn add_edge(sum: &mut Lanes, [a, b]: [&Lanes; 2], [la, lb]: [f64x4; 2], along: &
     for i in 0..3 {
         sum[i] += is_aside & (weight * sine[i]);
     }
+    sine_squared
 }
 
 fn minus(a: &Lanes, b: &Lanes) -> Lanes {

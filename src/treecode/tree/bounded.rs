@@ -12,8 +12,8 @@ use wide::{f32x4, f64x4};
 const LOOKS: [f64; 3] = [2.0, 4.0, 10.0];
 /// What dipoles lack of bounded points is 3x² ≤ 3 (a / 4πd²) |x|, and a ≤ (d / [`LEAST_RADIUS`] β)².
 const LACKING: f64 = 3.0 / (4.0 * PI * LEAST_RADIUS * LEAST_RADIUS);
-/// Errors of the 64-bit sums over what is near.
-const ROUNDING_OF_SUMS: f64 = 1e-12;
+/// Errors of the 64-bit sums over what is near, next to edges too.
+const ROUNDING_OF_SUMS: f64 = 1e-10;
 
 /// Whether a value reaches a threshold.
 #[derive(Clone, Copy)]

@@ -10,8 +10,7 @@ pub struct Doubt {
     pub cap: usize,
 }
 
-/// Numerator and denominator together are at least this share of |a||b||c| where the angle is good to 1e-12: else the query
-/// is close to an edge.
+/// The share at which angles are good to 1e-12 (see [`HalfAngle::is_certain`]).
 const LEAST: f64 = 2e-3;
 
 /// Multiplies a product by the solid angles of caps at the samples of a region of a grid; those in doubt are left out, and
@@ -68,10 +67,9 @@ impl Work for CapWork<'_> {
                     ];
                     let mut four = product.four::<R::Doubles>([first, j, k], count);
                     for cap in caps {
-                        let HalfAngle { numerator, denominator, error, lengths } = cap.triangle.half_angle(q);
-                        let size = numerator.abs();
-                        let is_large = (size + denominator.abs()).greater(R::Doubles::splat(LEAST) * lengths);
-                        let open = !(is_large & size.greater(error)) & ((1 << count) - 1);
+                        let half = cap.triangle.half_angle(q);
+                        let open = !half.is_certain(LEAST) & ((1 << count) - 1);
+                        let HalfAngle { numerator, denominator, .. } = half;
                         if open == 0 {
                             four.multiply(denominator, numerator);
                             continue;

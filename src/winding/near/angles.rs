@@ -31,6 +31,21 @@ impl Angles {
         self.imaginary.put(part, new_y * scale);
     }
 
+    /// Adds the arguments of imaginary and real parts to four sums.
+    pub fn add_each(&mut self, part: usize, factors: [(f32, f32); 4]) {
+        let [imaginary, real] = [factors.map(|f| f.0), factors.map(|f| f.1)].map(f32x4::from);
+        self.add::<f32x4>(part, real, imaginary);
+    }
+
+    /// Adds the arguments of more factors, imaginary and real parts, to one sum, and whole turns.
+    pub fn add_at(&mut self, place: usize, factors: &[(f32, f32)], turns: f32) {
+        let (part, lane) = (place / 4 * 4, place % 4);
+        for factor in factors {
+            self.add_each(part, std::array::from_fn(|k| if k == lane { *factor } else { (0.0, 1.0) }));
+        }
+        self.wraps.0[place] += turns;
+    }
+
     /// The winding numbers: the sums of half solid angles over 2π.
     pub fn turns(&self) -> [f64; 8] {
         let half = |octet: &Octet, first: usize| -> f32x4 { octet.get(first) };

@@ -3,31 +3,43 @@ use super::LANES;
 use super::angles::Angles;
 use crate::math::{Floats, Vec3};
 use crate::treecode::{GROUPS, Lanes, Octet, QueryBlock, QueryGroup, groups_of, parts, relative};
-use crate::winding::half_angle::{HalfAngle, Triangle};
-use wide::{f32x4, f64x4};
+use crate::winding::closure::crossings_of_caps;
+use crate::winding::curtain::factors_of;
+use crate::winding::half_angle::{HalfAngle, LEAST_OF_CAP, Triangle};
+use crate::winding::triangles::point_of;
+use wide::f64x4;
 
 /// Who decides on which side of a triangle a query lies where rounding leaves it open.
 pub trait Sides {
-    /// Numerators (a − q)·n with the right signs, n = (b − a) × (c − a), and denominators, given computed ones; the bits of `open`
-    /// tell the lanes in which the sign is not certain. A numerator that stays 0 counts as in the plane and contributes nothing.
-    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, halves: [f64x4; 2], open: u32) -> [f64x4; 2];
+    /// Numerators (a − q)·n with the right signs, n = (b − a) × (c − a), given computed ones; the bits of `open` tell the
+    /// lanes in which the sign is not certain. A lane that stays 0 counts as in the plane and contributes nothing.
+    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, numerators: f64x4, open: u32) -> f64x4;
 }
 
-/// Adds the solid angles of a triangle to the sums of some groups of queries, their signs decided by `sides`.
+/// Adds the winding numbers of a cap to the sums of some groups of queries: by its solid angle, and where rounding leaves that open
+/// by its edges and its crossing.
 #[cold]
 #[inline(never)]
-pub fn add_precisely<D: Sides>(
-    corners: &[Vec3; 3],
-    sides: &D,
-    queries: &QueryBlock,
-    groups: u32,
-    sums: &mut [Angles; GROUPS],
-) {
+pub fn add_cap(cap: &[Vec3; 3], queries: &QueryBlock, groups: u32, sums: &mut [Angles; GROUPS]) {
+    let triangle = Triangle::new(*cap);
     for group in groups_of(groups) {
-        let (mut numerators, mut denominators) = (Octet::ZERO, Octet::ZERO);
-        set_precisely(corners, sides, queries, group, !0, [&mut numerators, &mut denominators]);
-        for part in parts::<f32x4>() {
-            sums[group].add::<f32x4>(part, denominators.get(part), numerators.get(part));
+        for (half, q) in queries.positions[2 * group..][..2].iter().enumerate() {
+            let angle = triangle.half_angle(*q);
+            let certain = angle.is_certain(LEAST_OF_CAP);
+            let [numerators, denominators] = [angle.numerator, angle.denominator].map(|v| v.to_array());
+            let one = |k: usize| {
+                if certain >> k & 1 == 1 { narrowed(numerators[k], denominators[k]) } else { (0.0, 1.0) }
+            };
+            sums[group].add_each(LANES * half, [0, 1, 2, 3].map(one));
+            for k in (0..LANES).filter(|k| certain >> k & 1 == 0) {
+                let q = point_of(q, k);
+                if !q.is_finite() {
+                    continue;
+                }
+                let factors = factors_of(cap, q).map(|[real, imaginary]| narrowed(imaginary, real));
+                let crossings = crossings_of_caps(&[*cap], q);
+                sums[group].add_at(LANES * half + k, &factors, -crossings as f32);
+            }
         }
     }
 }
@@ -49,13 +61,12 @@ fn set_precisely<D: Sides>(
         if lanes == 0 {
             continue;
         }
-        let HalfAngle { numerator, denominator, error, .. } = triangle.half_angle(*q);
-        let open = numerator.abs().simd_le(error).to_bitmask();
-        let mut halves = [numerator, denominator];
+        let HalfAngle { numerator: mut numerators, denominator, error, .. } = triangle.half_angle(*q);
+        let open = numerators.abs().simd_le(error).to_bitmask();
         if open != 0 {
-            halves = sides.decide(corners, q, halves, open);
+            numerators = sides.decide(corners, q, numerators, open);
         }
-        let [numerators, denominators] = halves.map(|v| v.to_array());
+        let [numerators, denominators] = [numerators, denominator].map(|v| v.to_array());
         for k in (0..LANES).filter(|k| lanes >> k & 1 == 1) {
             let place = LANES * half + k;
             (to_numerators.0[place], to_denominators.0[place]) = narrowed(numerators[k], denominators[k]);
@@ -186,6 +197,7 @@ mod tests {
     use crate::math::solid_angle;
     use crate::winding::near::single;
     use std::f64::consts::PI;
+    use wide::f32x4;
 
     const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(1.0, 0.1, 0.3), Vec3::new(0.2, 1.0, -0.2)];
 
@@ -225,7 +237,7 @@ mod tests {
                 0,
                 &mut sums[0],
             );
-            add_precisely(&TRIANGLE, &AsComputed, &queries, 2, &mut sums);
+            add_cap(&TRIANGLE, &queries, 2, &mut sums);
             let found = points.into_iter().zip(first_four(&sums[0]).into_iter().zip(first_four(&sums[1])));
             for (q, (w, precise)) in found {
                 let expected = solid_angle(q, TRIANGLE) / (4.0 * PI);
@@ -239,8 +251,8 @@ mod tests {
     struct AsComputed;
 
     impl Sides for AsComputed {
-        fn decide(&self, _: &[Vec3; 3], _: &Lanes, halves: [f64x4; 2], _: u32) -> [f64x4; 2] {
-            halves
+        fn decide(&self, _: &[Vec3; 3], _: &Lanes, numerators: f64x4, _: u32) -> f64x4 {
+            numerators
         }
     }
 
@@ -248,11 +260,11 @@ mod tests {
     struct Given(f64);
 
     impl Sides for Given {
-        fn decide(&self, corners: &[Vec3; 3], _: &Lanes, halves: [f64x4; 2], open: u32) -> [f64x4; 2] {
+        fn decide(&self, corners: &[Vec3; 3], _: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
             assert_eq!(*corners, TRIANGLE);
-            let mut values = halves[0].to_array();
+            let mut values = numerators.to_array();
             (0..4).filter(|k| open >> k & 1 == 1).for_each(|k| values[k] = self.0);
-            [f64x4::from(values), halves[1]]
+            f64x4::from(values)
         }
     }
 
@@ -263,9 +275,11 @@ mod tests {
         let points =
             [middle, middle + 1e-3 * normal, a + 2.0 * (b - a) + 2.0 * (c - a), middle - 1e-3 * normal];
         for sign in [1.0, -1.0] {
-            let mut sums = [Angles::ZERO; GROUPS];
-            add_precisely(&TRIANGLE, &Given(sign * 1e-300), &block(points), 1, &mut sums);
-            let [inside, in_front, outside, behind] = first_four(&sums[0]);
+            let mut sum = Angles::ZERO;
+            let queries = block(points);
+            let triangle = NearTriangle::new(TRIANGLE.map(single), single(normal), queries.reach);
+            triangle.add::<f32x4, _>(|| TRIANGLE, &Given(sign * 1e-300), &queries, 0, &mut sum);
+            let [inside, in_front, outside, behind] = first_four(&sum);
             assert!((inside - 0.5 * sign).abs() < 1e-6, "{inside}");
             assert!(outside.abs() < 1e-6, "{outside}");
             assert!(in_front < -0.49 && behind > 0.49, "{in_front} {behind}");

@@ -2,15 +2,15 @@
 //! a few times farther away than they are large.
 use super::angles::Angles;
 use super::dipoles::{Dipole, add_fields};
-use super::solid_angles::{NearTriangle, Sides, TRIANGLE_ROUNDING, add_precisely};
+use super::solid_angles::{NearTriangle, Sides, TRIANGLE_ROUNDING, add_cap};
 use super::{GROUP, single};
 use crate::data::BLOCK;
 use crate::math::{Registers, Vec3, Work, area_vector, in_widest_registers};
 use crate::treecode::{
     GROUPS, Kernel, Lanes, NearLeaf, Octet, QueryBlock, SourceKind, Sources, groups_of, parts,
 };
-use crate::winding::surface_rule::decided_halves;
-use crate::winding::triangles::Triangles;
+use crate::winding::angle_product::with_signs;
+use crate::winding::triangles::{Triangles, point_of, side_of_loose};
 use std::f64::consts::PI;
 use wide::f64x4;
 
@@ -21,8 +21,11 @@ struct AsCrossings {
 }
 
 impl Sides for AsCrossings {
-    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, halves: [f64x4; 2], open: u32) -> [f64x4; 2] {
-        if self.is_fraction { decided_halves(halves, open, queries, |_| *corners) } else { halves }
+    fn decide(&self, corners: &[Vec3; 3], queries: &Lanes, numerators: f64x4, open: u32) -> f64x4 {
+        if !self.is_fraction {
+            return numerators;
+        }
+        with_signs(numerators, open, |lane| side_of_loose(*corners, point_of(queries, lane)))
     }
 }
 
@@ -131,7 +134,7 @@ impl Work for NearTriangles<'_> {
                 for (triangle, i) in batch.iter().zip(members) {
                     let corners = || Kernel::corners(triangles, *i as usize);
                     if (*i as usize) < caps {
-                        add_precisely(&corners(), &sides, queries, leaf.wanted, &mut angles);
+                        add_cap(&corners(), queries, leaf.wanted, &mut angles);
                         turned |= leaf.wanted;
                         continue;
                     }

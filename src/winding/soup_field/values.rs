@@ -65,7 +65,11 @@ impl SoupField {
         if let FractionBy::Tree { order, beta } = by
             && let Some(tree) = self.tree()
         {
-            return tree.gradient(q, order, beta, scratch);
+            let gradient = tree.gradient(q, order, beta, scratch);
+            // It has none next to edges of caps, of which most are no edges of the boundary chain.
+            if gradient.is_finite() {
+                return gradient;
+            }
         }
         let rim = |t: &u32| rim_gradient(q, self.soup.corners(*t as usize));
         let capped: Vec3 = self.curtain.each_edge().map(|[a, b]| edge_gradient(q, a, b)).sum();

@@ -1,6 +1,6 @@
 //! Numbers of twice the precision: unevaluated sums of two `f64` (Dekker 1971), some 106 bits. No fused multiply-add, so
 //! that every machine gives the same bits.
-use crate::math::Vec3;
+use super::Vec3;
 use std::ops::{Add, Div, Mul, Sub};
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
