@@ -2,8 +2,9 @@
 //!
 //! The triangles of both are cut along each other exactly (`operands`, [`crate::arrangement`]); where a field changes sides beside
 //! its triangles, at openings, the other operand is cut along its level set (`level`). What hangs together without crossing a cut
-//! lies on one side (`regions`) and is kept or dropped as a whole (`keep`, `sides`). A cloud stands in by the surface of its level
-//! set (`cloud`).
+//! lies on one side (`regions`) and is kept or dropped as a whole (`keep`, `sides`), or where sides do not tell becomes what closes
+//! the result (`closing`). A cloud stands in by the surface of its level set (`cloud`).
+mod closing;
 mod cloud;
 mod keep;
 mod level;

@@ -1,11 +1,11 @@
 //! Which pieces bound the result: it is inside on one side of them only.
+use super::closing::Closing;
 use super::operands::{Operand, Pieces, largest_coordinate};
 use super::regions::{Regions, across_edges};
 use super::{BooleanError, BooleanOp};
 use crate::data::{Monitor, edges, sorted};
 use crate::math::{Vec3, area_vector, barycentre};
 use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
 
 /// What becomes of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,39 +47,14 @@ pub fn keep(
     let is_first: Vec<bool> = (0..pieces.corners.len())
         .map(|piece| *first.entry(sorted(pieces.corners[piece])).or_insert(piece) == piece)
         .collect();
-    let most = OF_COORDINATE * largest_coordinate(operands);
+    let size = largest_coordinate(operands);
+    let most = OF_COORDINATE * size;
     let is_thin =
         |region: &usize| Aside::of(pieces.places(regions.largest[*region] as usize), most).is_thin();
     let thin: Vec<usize> = all.into_iter().filter(is_thin).collect();
-    close_with(&thin, pieces, &regions, &is_first, &mut fates);
+    Closing { pieces, regions: &regions, is_first: &is_first, size }.close(&thin, &mut fates);
     let fate = |piece: usize| if is_first[piece] { fates[regions.of[piece] as usize] } else { Fate::Dropped };
     Ok((0..pieces.corners.len()).map(fate).collect())
-}
-
-/// Regions too thin to have sides become what leaves the least boundary.
-fn close_with(thin: &[usize], pieces: &Pieces, regions: &Regions, is_first: &[bool], fates: &mut [Fate]) {
-    if thin.is_empty() {
-        return;
-    }
-    let mut of_thin: BTreeMap<usize, BTreeMap<[u32; 2], i32>> =
-        thin.iter().map(|region| (*region, BTreeMap::new())).collect();
-    let mut net: FxHashMap<[u32; 2], i32> = FxHashMap::default();
-    for (piece, corners) in pieces.corners.iter().enumerate().filter(|(piece, _)| is_first[*piece]) {
-        let region = regions.of[piece] as usize;
-        for (ends, turn) in directed(*corners) {
-            match of_thin.get_mut(&region) {
-                Some(own) => *own.entry(ends).or_default() += turn,
-                None => *net.entry(ends).or_default() += turn * fates[region].turn(),
-            }
-        }
-    }
-    for (region, own) in of_thin {
-        let at = |ends| net.get(ends).copied().unwrap_or_default();
-        let boundary = |fate: &Fate| own.iter().map(|(e, n)| (at(e) + n * fate.turn()).abs()).sum::<i32>();
-        let best = [Fate::Dropped, Fate::Kept, Fate::Turned].into_iter().min_by_key(boundary);
-        fates[region] = best.unwrap_or(Fate::Dropped);
-        own.into_iter().for_each(|(e, n)| *net.entry(e).or_default() += n * fates[region].turn());
-    }
 }
 
 /// The edges of a piece, lower vertex first, and whether it leads up along each: 1, or down: −1.
