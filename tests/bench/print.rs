@@ -19,6 +19,7 @@ use std::fmt::Write;
 use std::time::Instant;
 
 const STEPS: [&str; 7] = ["parse", "field", "slice", "walls", "fill", "order", "g-code"];
+const FILL: usize = 4;
 
 fn main() {
     let mut words = std::env::args().skip(1);
@@ -74,14 +75,18 @@ fn prepare(
     let layers = slice(&field, plan, &SliceConfig::default(), &Silent).expect("the model can be sliced");
     clock.lap();
     let clock = RefCell::new(clock);
-    let stages = |fraction: f64, stage: &str| {
-        if fraction == 1.0 && stage != "neighbours" {
-            clock.borrow_mut().lap();
+    // "neighbours" are looked for to fill.
+    let step = |stage: &str| STEPS.iter().position(|step| *step == stage).unwrap_or(FILL);
+    let stages = |_: f64, stage: &str| {
+        let mut clock = clock.borrow_mut();
+        if clock.step < step(stage) {
+            clock.lap();
         }
         true
     };
     let paths = toolpaths(&layers, settings, &stages).expect("the layers can be filled");
     let mut clock = clock.into_inner();
+    clock.lap();
     let program = gcode(&paths, &PrinterProfile::default()).expect("the paths can be printed");
     clock.lap();
     (layers, paths, program.text)

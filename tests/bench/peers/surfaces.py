@@ -20,7 +20,9 @@ import time
 
 import environment
 
-MODELS = ["bumpy70k", "knot124k", "dragon202k", "featuretype"]
+MODELS = ["bumpy70k", "knot124k", "dragon202k"]
+# Of no package: compared if it lies with the others.
+FURTHER = "featuretype"
 POINTS = [35_000, 100_000]
 DEPTH = 8
 HEADS = ["model", "points", "normals by", "whose", "time", "triangles", "excess", "off", "normals"]
@@ -35,7 +37,7 @@ def main():
     arguments.add_argument("--noise", type=float, default=0.0)
     arguments.add_argument("--smoothing", type=float, help="of ours, in distances between points")
     arguments.add_argument("--sharp", type=float, help="of ours, in degrees")
-    arguments.add_argument("--models", default=",".join(MODELS))
+    arguments.add_argument("--models", help="names of files in target/bench-models")
     arguments.add_argument("--points", default=",".join(map(str, POINTS)))
     arguments.add_argument("--normals", default="truth")
     arguments.add_argument("--poisson", help="for one process: make a surface of this cloud", nargs=2)
@@ -44,12 +46,20 @@ def main():
     if options.poisson:
         return poisson(*options.poisson, options.threads)
     program = environment.measuring_program("surfaces")
+    models = options.models.split(",") if options.models else made()
     print(f"\n{options.threads} thread(s), medians of {options.rounds} round(s), {platform.processor() or platform.machine()}")
     print("| " + " | ".join(HEADS) + " |\n|" + "---|" * len(HEADS))
-    for model in options.models.split(","):
+    for model in models:
         for count in map(int, options.points.split(",")):
             for normals in options.normals.split(","):
                 compare(program, environment.MODELS / f"{model}.ply", count, normals, options)
+
+
+def made():
+    """Names of the models that lie there now."""
+    maker = environment.ROOT / "tests" / "bench" / "models.mjs"
+    subprocess.run(["node", maker, environment.MODELS, *MODELS], check=True, stdout=subprocess.DEVNULL)
+    return MODELS + [FURTHER] * (environment.MODELS / f"{FURTHER}.ply").exists()
 
 
 def compare(program, model, count, normals, options):

@@ -23,7 +23,7 @@ pub fn print() {
     let bunny = Arc::new(read_soup(&models("bunny")));
     let [thousand, ten_thousand] = [1000, 10_000].map(|count| Arc::new(remeshed(&bunny, count)));
     let soup = |name: &str| Arc::new(read_soup(&models(name)));
-    let (teapot, truck, knot, dragon) = (soup("teapot"), soup("truck"), soup("knot124k"), soup("dragon202k"));
+    let (teapot, knot, dragon) = (soup("teapot"), soup("knot124k"), soup("dragon202k"));
     let row = |name, soup: &Arc<TriangleSoup>, resolution, theirs| Row {
         name,
         soup: soup.clone(),
@@ -50,7 +50,6 @@ pub fn print() {
             small,
             vec![
                 row("Teapot", &teapot, 32, Some(17_660)),
-                row("Truck", &truck, 32, None),
                 row("Bunny, remeshed (theirs: Max, 20,196)", &ten_thousand, 32, Some(143_033)),
                 row("Dragon (theirs: Armadillo, 345,944)", &dragon, 32, Some(2_698_200)),
             ],
