@@ -216,6 +216,15 @@ mod tests {
     }
 
     #[test]
+    fn triangles_without_area_are_touched_on_their_edges() {
+        let soup = |corners: [Vec3; 3]| TriangleSoup::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
+        let lattice = Lattice { origin: Vec3::splat(-0.5), spacing: Vec3::splat(0.25), counts: [9, 9, 11] };
+        assert_eq!(check(&soup([Vec3::ZERO, Vec3::splat(0.6), Vec3::ONE]), &lattice), 5);
+        assert_eq!(check(&soup([Vec3::ZERO, Vec3::X, 0.5 * Vec3::X]), &lattice), 5);
+        assert_eq!(check(&soup([Vec3::splat(0.25); 3]), &lattice), 1);
+    }
+
+    #[test]
     fn slanted_slivers_far_from_the_origin_count_right() {
         let offset = Vec3::new(1e6, -1e6, 3e5);
         let tip = |k: usize| {

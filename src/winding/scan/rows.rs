@@ -1,6 +1,6 @@
 //! Where triangles cross the rows of a slab, and which samples they touch.
 use super::{Axis, Slab, extent};
-use crate::math::{Sign, Vec3, covers, normal_signs, orient_yz, side_of_plane, tie_break, touches};
+use crate::math::{Sign, Vec3, covers, orient_yz, side_of_plane, tie_break, touches};
 use crate::winding::facets::Role;
 use std::ops::Range;
 
@@ -88,7 +88,7 @@ impl Rows<'_> {
     pub fn add(&mut self, corners: [Vec3; 3], role: Role) {
         let facing = orient_yz(corners[0], corners[1], corners[2]);
         if facing == 0 {
-            if role != Role::Cap && normal_signs(corners) != [0; 3] {
+            if role != Role::Cap {
                 self.mark_upright(corners);
             }
             return;
