@@ -100,7 +100,7 @@ const BENCHES = {
   },
   peers: (options) => beside('compare', options),
   surfaces: (options) => beside('surfaces', options),
-  distances: (options) => beside('distance', ['--threads', '2', ...options]),
+  distances: (options) => beside('distance', options),
   charges: (options) => example('charges', ...options),
   textures: (options) => example('texture', ...options),
   async figures(options) {

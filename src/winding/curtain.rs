@@ -114,7 +114,7 @@ fn end(p: Vec3, q: &[f64x4; 3]) -> End {
 }
 
 /// The factors of the edges of a triangle at a query, real and imaginary part: their arguments and 2π for each crossing by the
-/// ray along +x make up half its solid angle. In two triangles that share an edge, its factors are exactly conjugate.
+/// ray along −x make up half its solid angle. In two triangles that share an edge, its factors are exactly conjugate.
 pub fn factors_of(triangle: &[Vec3; 3], q: Vec3) -> [[f64; 2]; 3] {
     let ends = triangle.map(|p| end(p, &q.to_array().map(f64x4::splat)));
     [0, 1, 2].map(|k| {

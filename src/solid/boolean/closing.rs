@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Regions that have another sheet as near as this, in the largest coordinate of the operands, may be on either side of it.
 const NEAR: f64 = 1e-11;
 
-/// Numbers of edges, lower vertex first, with their direction.
+/// How often edges, lower vertex first, are led up along, less how often down.
 type Edges = BTreeMap<[u32; 2], i32>;
 
 /// Regions in a result that is to be closed.

@@ -10,7 +10,8 @@ use wide::{f32x4, f64x4};
 const NOTHING: Lanes = [f64x4::ZERO; 3];
 
 impl<K: Kernel> Tree<K> {
-    /// The gradient of [`Tree::at_block`] at `q`, from the same clusters and the same sources. NaN where `q` is not finite.
+    /// The gradient of [`Tree::at_block`] at `q`, from the same clusters and the same sources. Not finite where `q` is
+    /// not, or where a source near it has no gradient that rounding leaves anything of.
     ///
     /// It is the derivative of the approximation within one choice of clusters; its error falls with one power of the
     /// distance more than the error of the value.
