@@ -18,28 +18,36 @@ async function surface(page, resolution = 16) {
   await make(page, '#surface');
 }
 
-/** What the database has of kinds of things that belong to models, as `edit` leaves them. */
+/** What the database has of things that belong to models, oldest first, as `edit` leaves them. */
 function belongings(page, edit = '') {
   return page.evaluate(async (edit) => {
     const answer = (request) => new Promise((resolve, reject) => Object.assign(request, { onsuccess: () => resolve(request.result), onerror: reject }));
     const database = await answer(indexedDB.open('fast-winding'));
     const transaction = database.transaction(['belongings', 'contents'], 'readwrite');
+    // What is not committed when the page is left has not happened.
+    const committed = new Promise((resolve, reject) => Object.assign(transaction, { oncomplete: resolve, onabort: reject }));
     const [things, contents] = ['belongings', 'contents'].map((name) => transaction.objectStore(name));
     const all = await answer(things.getAll());
     if (edit) await new (async () => {}).constructor('all', 'things', 'contents', 'answer', edit)(all, things, contents, answer);
+    await committed;
     database.close();
-    return all.map(({ kind }) => kind).sort();
+    return all.map(({ kind, id, time }) => ({ kind, id, time })).sort((a, b) => a.time - b.time);
   }, edit);
 }
 
-/** Waits until these kinds are kept, in alphabetical order. */
+/** Waits until these kinds are kept, in alphabetical order, and none is written any more. */
 async function keeps(page, ...kinds) {
+  let [there, before] = [];
   for (let tries = 0; tries < 200; tries++) {
-    if ((await belongings(page)).join() === kinds.join()) return;
-    await page.waitForTimeout(50);
+    [there, before] = [await belongings(page), there];
+    const isWritten = JSON.stringify(there) === JSON.stringify(before);
+    if (isWritten && kindsOf(there).join() === kinds.join()) return;
+    await page.waitForTimeout(100);
   }
-  assert.deepEqual(await belongings(page), kinds);
+  assert.deepEqual(kindsOf(there), kinds);
 }
+
+const kindsOf = (things) => things.map(({ kind }) => kind).sort();
 
 /** Loads the page again, and waits until so many results are listed. */
 async function reload(page, results) {
