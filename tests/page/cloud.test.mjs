@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { sphereXyz } from './models.mjs';
-import { dropFile, fact, number, picture, settled, withPage as onSite } from './page.mjs';
+import { dropFile, fact, number, picture, settled, viewPixels, withPage as onSite } from './page.mjs';
 import { served } from './site.mjs';
 
 const site = served();
@@ -38,16 +38,16 @@ describe('a cloud', () => {
       // So many that the job lasts longer than looking at it.
       await dropFile(page, 'ball.xyz', sphereXyz(150_000, 10));
       await page.waitForSelector('#orient:visible');
-      const before = await picture(page);
+      const before = await viewPixels(page);
       await page.click('#orient');
       await page.waitForFunction(() => document.getElementById('job-progress').value > 0.05);
-      assert.notEqual(await picture(page), before, 'the points are shaded before the job ends');
+      assert.notDeepEqual(await viewPixels(page), before, 'the points are shaded before the job ends');
       assert.ok(await page.isVisible('#job'));
       await page.keyboard.press('Escape');
       await page.waitForSelector('#job', { state: 'hidden' });
       assert.equal(await fact(page, 'facts', 'Normals'), 'missing');
       await page.waitForTimeout(200);
-      assert.equal(await picture(page), before, 'the points look as before');
+      assert.deepEqual(await viewPixels(page), before, 'the points look as before');
       await page.selectOption('#orient-method', 'propagation');
       await page.click('#orient');
       await page.waitForSelector('#orient-block', { state: 'hidden' });

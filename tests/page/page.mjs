@@ -172,8 +172,8 @@ export async function reachesSides(page) {
   return false;
 }
 
-/** Every fourth pixel of the 3D view, along both sides. */
-async function viewPixels(page) {
+/** Every fourth pixel of the 3D view, along both sides: of one frame, sooner there than a `picture`. */
+export async function viewPixels(page) {
   return page.evaluate(async () => {
     const canvas = document.getElementById('canvas');
     const copy = document.createElement('canvas');

@@ -1,4 +1,4 @@
-/** What belongs to a model, and is kept with it: what was made of it, its second model, its normals, and how it was shown. */
+/** What belongs to a model, and is kept with it: what was made of it, its second model, its normals, and how it was shown. Of a texture, how it is made. */
 import { transact } from './database.ts';
 import type { Kept } from './kept.ts';
 import type { Source, Unit } from './page.ts';
@@ -7,7 +7,7 @@ import { makeRoom, MOST, MOST_OF_ALL } from './room.ts';
 /** Of what is kept; what has another one is not understood. */
 const VERSION = 1;
 
-export type Kind = 'result' | 'normals' | 'second' | 'view';
+export type Kind = 'result' | 'texture' | 'picture' | 'normals' | 'second' | 'view';
 
 /** Whose it is. In another unit the model is another one. */
 export type Owner = Pick<Source, 'id' | 'unit' | 'sample'>;

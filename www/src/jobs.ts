@@ -2,6 +2,9 @@ import type { CallOptions } from 'fast-winding';
 import type { State } from './state.ts';
 import type { Store } from './store.ts';
 
+/** Why a job is aborted when another one takes its place. */
+export const FOLLOWED = 'another job takes its place';
+
 /** Runs long work one piece at a time, tells its progress to the store and can cancel it. */
 export class Jobs {
   readonly #store: Store<State>;
@@ -17,10 +20,15 @@ export class Jobs {
     return this.#running !== undefined;
   }
 
+  /** Resolves when none runs. */
+  async idle(): Promise<void> {
+    while (this.#running) await this.#running.settled;
+  }
+
   /** Cancels what runs, waits until it has stopped, then starts `work`, which tells its own progress. */
   async run<T>(label: string, work: (options: Required<CallOptions>) => Promise<T>): Promise<T> {
     while (this.#running) {
-      this.#running.controller.abort();
+      this.#running.controller.abort(FOLLOWED);
       await this.#running.settled;
     }
     const controller = new AbortController();

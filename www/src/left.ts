@@ -5,6 +5,7 @@ import type { Placement } from './placement.ts';
 import { endOf } from './segments.ts';
 import { allOf } from './state.ts';
 import type { Item, State } from './state.ts';
+import type { Seam, Texturing } from './texture.ts';
 
 export interface Left {
   readonly visible: State['visible'];
@@ -14,12 +15,21 @@ export interface Left {
   /** Of results, by what they are kept as: those that have the places of their kinds, and the one that is on the left. */
   readonly inPlace: readonly string[];
   readonly against?: string;
+  /** Seams that the texture's charts are not cut along yet. */
+  readonly uncut?: readonly Seam[];
 }
 
 export function leftOf(state: State, idOf: (result: Result) => string | undefined): Left {
-  const { visible, halves, placement, results, against } = state;
+  const { visible, halves, placement, results, against, texture, seams } = state;
   const inPlace = results.filter(({ item, made }) => state[MADE[item].slot] === made).flatMap((result) => idOf(result) ?? []);
-  return { visible, halves, placement, inPlace, against: against && idOf(against) };
+  const uncut = texture && texture.value.seams !== seams ? seams : undefined;
+  return { visible, halves, placement, inPlace, against: against && idOf(against), uncut };
+}
+
+/** The same for a texture, when it is there again; how it is shown, only as long as nothing else was chosen. */
+export function asTextureLeft({ seams }: Texturing, left: Left | undefined, isUntouched: boolean): Partial<State> {
+  const shown = left && isUntouched ? { visible: { ...allOf(false), ...left.visible }, halves: left.halves } : {};
+  return { seams: left?.uncut ?? seams, ...shown };
 }
 
 /** The state with results again, and with what they were kept as; what was made meanwhile stays as it is shown. */

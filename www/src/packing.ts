@@ -4,6 +4,8 @@ import { ALL_MADE } from './made.ts';
 import type { Made, Making } from './made.ts';
 import type { Triangles } from './results.ts';
 import { isRecord } from './storage.ts';
+import { recipeOf } from './texture.ts';
+import type { TextureRecipe } from './texture.ts';
 
 interface Packed {
   readonly item: Made;
@@ -12,10 +14,15 @@ interface Packed {
   readonly value: unknown;
 }
 
-/** None of a texture, which is in the engine alone. */
-export async function packed({ item, made }: Making): Promise<Packed | undefined> {
+/** What a texture is made again from, which is in the engine alone. */
+export interface PackedTexture {
+  readonly milliseconds: number;
+  readonly recipe: TextureRecipe;
+}
+
+export async function packed({ item, made }: Making): Promise<Packed | PackedTexture> {
   const { milliseconds, value } = made;
-  if ('handle' in value) return undefined;
+  if ('handle' in value) return { milliseconds, recipe: recipeOf(value) };
   if (!('soup' in value)) return { item, milliseconds, value };
   const { soup, triangles: _, ...rest } = value;
   return { item, milliseconds, value: { ...rest, ply: await soup.export('ply') } };
@@ -28,6 +35,18 @@ export async function unpacked(engine: FastWinding, content: unknown): Promise<M
   if (!known || typeof milliseconds !== 'number' || !isRecord(value) || !ARE_WHOLE[known](value)) throw new Error('this is no result');
   const { ply, ...rest } = value;
   return { item: known, made: { milliseconds, value: ply ? { ...rest, ...(await soupOf(engine, ply as Uint8Array)) } : rest } } as unknown as Making;
+}
+
+/** Throws for what is none. */
+export function unpackedTexture(content: unknown): PackedTexture {
+  const { milliseconds, recipe } = isRecord(content) ? content : {};
+  if (typeof milliseconds !== 'number' || !isRecipe(recipe)) throw new Error('this is no texture');
+  return { milliseconds, recipe };
+}
+
+function isRecipe(value: unknown): value is TextureRecipe {
+  if (!isRecord(value) || !isRecord(value.first) || !isRecord(value.mapping) || typeof value.refine !== 'boolean' || !Array.isArray(value.seams)) return false;
+  return value.seams.every((seam) => isRecord(seam) && Array.isArray(seam.picks) && seam.chain instanceof Uint32Array);
 }
 
 async function soupOf(engine: FastWinding, ply: Uint8Array): Promise<{ soup: Soup; triangles: Triangles }> {

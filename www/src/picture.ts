@@ -3,6 +3,8 @@
 export interface Picture {
   readonly name: string;
   readonly canvas: HTMLCanvasElement;
+  /** The person's file. */
+  readonly given?: Blob;
   /** The file as it was given, if other programs read its format and it is not too large. */
   readonly file?: { readonly bytes: Uint8Array; readonly type: 'image/png' | 'image/jpeg' };
 }
@@ -51,7 +53,7 @@ export async function readPicture(file: File): Promise<Picture> {
   bitmap.close();
   const { type } = file;
   const isKnown = (type === 'image/png' || type === 'image/jpeg') && scale === 1;
-  return { name: file.name, canvas, file: isKnown ? { bytes: new Uint8Array(await file.arrayBuffer()), type } : undefined };
+  return { name: file.name, canvas, given: file, file: isKnown ? { bytes: new Uint8Array(await file.arrayBuffer()), type } : undefined };
 }
 
 /** A file of the picture that is as it was given, or else a PNG. */

@@ -14,7 +14,19 @@ export interface Seam {
   readonly before?: Seam;
 }
 
-export interface Texturing {
+/** By what a texture is made again as it is. */
+export interface TextureRecipe {
+  /** With what it was made first: its field lines are from there. */
+  readonly first: Mapping;
+  /** Whether triangles were split before that cross. */
+  readonly refine: boolean;
+  /** How it is mapped. */
+  readonly mapping: Mapping;
+  /** Those that its charts were cut along, of those that were drawn. */
+  readonly seams: readonly Seam[];
+}
+
+export interface Texturing extends TextureRecipe {
   /** What has the texture. */
   readonly source: Soup;
   readonly handle: Texture;
@@ -24,10 +36,10 @@ export interface Texturing {
   readonly affected: AffectedTriangles;
   readonly proxy: ProxyGeometry;
   readonly lines: FieldLines;
-  /** Those that its charts were cut along, of those that were drawn. */
-  readonly seams: readonly Seam[];
-  /** How it is mapped. */
-  readonly mapping: Mapping;
+}
+
+export function recipeOf({ first, refine, mapping, seams }: TextureRecipe): TextureRecipe {
+  return { first, refine, mapping, seams };
 }
 
 /** Millimetres along a chain of vertices. */

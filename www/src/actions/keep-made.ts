@@ -2,26 +2,32 @@
 import { keepBelonging, onlyOne, removeBelongings } from '../belongings.ts';
 import type { Belonging } from '../belongings.ts';
 import { nextFrame } from '../dom.ts';
-import { asLeft, leftOf } from '../left.ts';
+import { asLeft, asTextureLeft, leftOf } from '../left.ts';
+import type { Left } from '../left.ts';
 import { ALL_MADE, labelOf, MADE, nextId } from '../made.ts';
 import type { Result } from '../made.ts';
 import { packed } from '../packing.ts';
 import { isSame } from '../page.ts';
 import type { Page, Source } from '../page.ts';
+import type { Picture } from '../picture.ts';
 import { firstPlacement } from '../placement.ts';
 import { lost } from '../problem.ts';
 import type { Model } from '../state.ts';
+import { fail } from './fail.ts';
 import { newId } from './open.ts';
+import { remade } from './remake.ts';
 import { releaseRestored, restored } from './restore.ts';
-import type { KeptSecond, Restored } from './restore.ts';
+import type { KeptFile, KeptTexture, Restored } from './restore.ts';
+import { mayMove } from './texture.ts';
 
 const SECOND = 'Second model';
 const NORMALS = 'Normals';
+const PICTURE = 'Picture';
 
 export function followMade(page: Page): void {
   let keeping: Keeping | undefined;
   const slots = ALL_MADE.map((item) => MADE[item].slot);
-  page.store.on(['model', 'kept', 'results', 'second', 'visible', 'halves', 'against', 'placement', ...slots], ({ model }) => {
+  page.store.on(['model', 'kept', 'results', 'second', 'visible', 'halves', 'against', 'placement', 'seams', 'picture', ...slots], ({ model }) => {
     const { source } = page;
     if (!model || !source) return;
     if (keeping?.isOf(source, model)) return keeping.follow();
@@ -47,6 +53,8 @@ class Keeping {
   readonly #entries = new Map<object, Entry>();
   /** How all is shown, as it was written last. */
   #left?: string;
+  /** A texture that is still to be made again. */
+  #awaited?: KeptTexture;
   #isReady = false;
   #isForgotten = false;
   #isOver = false;
@@ -83,7 +91,28 @@ class Keeping {
     this.#show(again);
     if (again.lost.length > 0) store.set({ problem: lost(again.lost) });
     this.#isReady = true;
+    this.#awaited = again.texture;
+    this.#left = again.left && JSON.stringify(again.left);
     this.follow();
+    if (again.texture) await this.#remake(again.texture, again.left);
+  }
+
+  /** One that fails, or that the person cancels, is not tried again. */
+  async #remake(texture: KeptTexture, left: Left | undefined): Promise<void> {
+    const { store } = this.#page;
+    const { visible, model } = store.state;
+    const { milliseconds, recipe, picture } = texture;
+    const isWanted = (): boolean => !this.#isOver && this.#awaited === texture && !store.state.texture;
+    try {
+      const value = model?.shape.kind === 'soup' ? await remade(this.#page, model.shape, recipe, isWanted) : undefined;
+      this.#awaited = undefined;
+      if (value) store.set({ texture: { value, milliseconds }, picture: store.state.picture ?? picture, isFlowing: mayMove(), ...asTextureLeft(value, left, store.state.visible === visible) });
+    } catch (error) {
+      this.#awaited = undefined;
+      this.#write(() => removeBelongings((['texture', 'picture'] as const).map((kind) => onlyOne(this.#source, kind))));
+      await fail(this.#page, 'The texture could not be made again', error);
+    }
+    if (!this.#isOver) this.follow();
   }
 
   #show({ results, second, left }: Restored): void {
@@ -117,12 +146,14 @@ class Keeping {
       this.#write(() => removeBelongings([id]));
     }
     for (const [of, thing] of things) if (!this.#entries.has(of)) this.#keep(of, thing);
-    this.#keepLeft();
+    // As it is shown with the texture is not known before that is there.
+    if (!this.#awaited) this.#keepLeft();
     this.#tell();
   }
 
   /** Nothing is kept any longer, not even what was on its way. */
   #forget(): void {
+    this.#awaited = undefined;
     const entries = [...this.#entries.values()];
     for (const entry of entries) entry.isKept = false;
     this.#write(() => removeBelongings(entries.map(({ id }) => id)));
@@ -131,10 +162,14 @@ class Keeping {
   #things(): Map<object, Thing> {
     const { store, secondSource: second, source } = this.#page;
     const things = new Map<object, Thing>();
-    for (const result of store.state.results) {
-      things.set(result, { id: this.#entries.get(result)?.id ?? newId(), kind: 'result', title: labelOf(result), content: () => packed(result) });
+    const { results, picture } = store.state;
+    for (const result of results) {
+      const kind = result.item === 'textured' ? 'texture' : 'result';
+      const id = kind === 'texture' ? onlyOne(this.#source, kind) : (this.#entries.get(result)?.id ?? newId());
+      things.set(result, { id, kind, title: labelOf(result), content: () => packed(result) });
     }
     if (second) things.set(second, { id: onlyOne(this.#source, 'second'), kind: 'second', title: SECOND, content: () => fileOf(second) });
+    if (picture && store.state.texture) things.set(picture, { id: onlyOne(this.#source, 'picture'), kind: 'picture', title: PICTURE, content: () => pictureFileOf(picture) });
     const oriented = source?.oriented;
     if (oriented) things.set(oriented, { id: onlyOne(this.#source, 'normals'), kind: 'normals', title: NORMALS, content: async () => oriented });
     return things;
@@ -185,7 +220,11 @@ class Keeping {
 }
 
 /** A second model as a file. */
-async function fileOf({ name, read }: Source): Promise<KeptSecond> {
+async function fileOf({ name, read }: Source): Promise<KeptFile> {
   const bytes = await read(new AbortController().signal);
   return { name, content: new Blob([bytes as Uint8Array<ArrayBuffer>]) };
+}
+
+async function pictureFileOf({ name, given }: Picture): Promise<KeptFile | undefined> {
+  return given && { name, content: new Blob([await given.arrayBuffer()], { type: given.type }) };
 }

@@ -3,8 +3,11 @@ import { belongingsOf, contentOf, onlyOne, removeBelongings } from '../belonging
 import type { Belonging, Owner } from '../belongings.ts';
 import type { Left } from '../left.ts';
 import type { Making } from '../made.ts';
-import { unpacked } from '../packing.ts';
+import { unpacked, unpackedTexture } from '../packing.ts';
+import type { PackedTexture } from '../packing.ts';
 import type { Page, Source } from '../page.ts';
+import { readPicture } from '../picture.ts';
+import type { Picture } from '../picture.ts';
 import { isAborted, isLost } from '../problem.ts';
 import type { Second } from '../state.ts';
 import { isRecord } from '../storage.ts';
@@ -15,9 +18,15 @@ export interface Restored {
   /** In their order, by what they are kept as. */
   readonly results: ReadonlyMap<string, Making>;
   readonly second?: { readonly source: Source; readonly value: Second };
+  readonly texture?: KeptTexture;
   readonly left?: Left;
   /** Titles of what could not be read, and is not kept any longer. */
   readonly lost: readonly string[];
+}
+
+/** A texture is still to be made. */
+export interface KeptTexture extends PackedTexture {
+  readonly picture?: Picture;
 }
 
 /** Reads all that belongs to a model but is not there, one after the other; what fails is left out. */
@@ -42,10 +51,14 @@ export async function restored(page: Page, owner: Owner, there: ReadonlySet<stri
   }
   const [ofSecond] = page.secondSource ? [] : ofKind('second');
   const second = ofSecond && (await attempt(ofSecond, (content) => secondOf(page, content)));
+  const [ofTexture] = ofKind('texture');
+  const [ofPicture] = page.store.state.picture ? [] : ofKind('picture');
+  const packedTexture = ofTexture && (await attempt(ofTexture, async (content) => unpackedTexture(content)));
+  const picture = packedTexture && ofPicture && (await attempt(ofPicture, pictureOf));
   const left = (await contentOf(onlyOne(owner, 'view'))) as Left | undefined;
   const gone = [...lost, ...all.slice(0, -MOST)];
   if (gone.length > 0) await removeBelongings(gone.map(({ id }) => id));
-  return { results, second, left, lost: lost.map(({ title }) => title) };
+  return { results, second, texture: packedTexture && { ...packedTexture, picture }, left, lost: lost.map(({ title }) => title) };
 }
 
 /** Gives back what is not wanted after all. */
@@ -54,16 +67,25 @@ export function releaseRestored({ results, second }: Restored): void {
   second?.value.shape.free();
 }
 
-/** What is kept of a second model: a file, as it is. */
-export interface KeptSecond {
+/** What is kept of a second model, and of a picture: a file, as it is. */
+export interface KeptFile {
   readonly name: string;
   readonly content: Blob;
 }
 
 async function secondOf(page: Page, content: unknown): Promise<{ source: Source; value: Second }> {
-  if (!isRecord(content) || !(content.content instanceof Blob)) throw new Error('this is no second model');
-  const { name, content: file } = content as unknown as KeptSecond;
+  const { name, content: file } = fileIn(content);
   const source: Source = { name, id: name, unit: 'millimeter', read: async () => new Uint8Array(await file.arrayBuffer()) };
   const { shape, geometry, bounds } = await load(page, source, { signal: new AbortController().signal, onProgress: () => undefined });
   return { source, value: { name, shape, geometry, bounds } };
+}
+
+async function pictureOf(content: unknown): Promise<Picture> {
+  const { name, content: file } = fileIn(content);
+  return readPicture(new File([file], name, { type: file.type }));
+}
+
+function fileIn(content: unknown): KeptFile {
+  if (!isRecord(content) || typeof content.name !== 'string' || !(content.content instanceof Blob)) throw new Error('this is no file');
+  return content as unknown as KeptFile;
 }

@@ -1,7 +1,8 @@
-import type { CallOptions, ProxyGeometry, Texture } from 'fast-winding';
+import type { AtlasOptions, CallOptions, ProxyGeometry, Soup, Texture } from 'fast-winding';
 import type { Page } from '../page.ts';
+import type { Timed } from '../state.ts';
 import { nearestVertex } from '../texture.ts';
-import type { Mapping, Seam, Texturing } from '../texture.ts';
+import type { Mapping, Seam, TextureRecipe, Texturing } from '../texture.ts';
 import { attempt } from './attempt.ts';
 import { fail } from './fail.ts';
 import { only } from './only.ts';
@@ -16,17 +17,28 @@ export async function makeTexture(page: Page, mapping: Mapping, refine: boolean)
   const { shape } = store.state.model!;
   if (shape.kind !== 'soup') return;
   await attempt(page, 'Texture', 'The texture could not be made', async (options) => {
-    const { value: handle, milliseconds } = await timed(() => shape.texture({ ...mapping, onlySeams: false, refine, ...options }));
-    try {
-      const value = { source: shape, ...(await contents(handle, [])), mapping };
-      store.state.texture?.value.handle.free();
-      const isFlowing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
-      store.set({ texture: { value, milliseconds }, seams: [], seamStart: undefined, isDrawing: false, isFlowing, visible: only(page, 'textured') });
-    } catch (error) {
-      handle.free();
-      throw error;
-    }
+    const texture = await made(shape, { first: mapping, refine, mapping, seams: [] }, options);
+    store.state.texture?.value.handle.free();
+    store.set({ texture, seams: [], seamStart: undefined, isDrawing: false, isFlowing: mayMove(), visible: only(page, 'textured') });
   });
+}
+
+/** A texture as its recipe has it. */
+export async function made(source: Soup, { first, refine, mapping, seams }: TextureRecipe, options: Required<CallOptions>): Promise<Timed<Texturing>> {
+  const isMappedAnew = mapping !== first || seams.length > 0;
+  const { value: handle, milliseconds } = await timed(() => source.texture({ ...first, onlySeams: false, refine, ...(isMappedAnew ? share(options, 0, 0.75) : options) }));
+  try {
+    if (isMappedAnew) await handle.remap({ ...mapping, ...cuts(mapping, seams), ...share(options, 0.75, 1) });
+    return { value: { source, ...(await contents(handle)), first, refine, mapping, seams }, milliseconds };
+  } catch (error) {
+    handle.free();
+    throw error;
+  }
+}
+
+/** Whether things may move by themselves. */
+export function mayMove(): boolean {
+  return !matchMedia('(prefers-reduced-motion: reduce)').matches;
 }
 
 /** Another proxy for the same field lines. Seams that were drawn are drawn again, between the same places. */
@@ -56,17 +68,20 @@ export async function flatten(page: Page, mapping: Mapping): Promise<void> {
 }
 
 async function mapped(page: Page, before: Texturing, mapping: Mapping, seams: readonly Seam[], options: CallOptions): Promise<Texturing> {
-  const { handle, source } = before;
-  const cuts = { seams: seams.map(({ chain }) => chain), onlySeams: mapping.onlySeams && seams.length > 0 };
-  const { milliseconds } = await timed(() => handle.remap({ ...mapping, ...cuts, ...options }));
-  const value = { source, ...(await contents(handle, seams)), mapping };
+  const { handle, source, first, refine } = before;
+  const { milliseconds } = await timed(() => handle.remap({ ...mapping, ...cuts(mapping, seams), ...options }));
+  const value = { source, ...(await contents(handle)), first, refine, mapping, seams };
   page.store.set({ texture: { value, milliseconds } });
   return value;
 }
 
-async function contents(handle: Texture, seams: readonly Seam[]): Promise<Omit<Texturing, 'source' | 'mapping'>> {
+function cuts({ onlySeams }: Mapping, seams: readonly Seam[]): AtlasOptions {
+  return { seams: seams.map(({ chain }) => chain), onlySeams: onlySeams && seams.length > 0 };
+}
+
+async function contents(handle: Texture): Promise<Omit<Texturing, 'source' | keyof TextureRecipe>> {
   const [soup, affected, proxy, lines] = await Promise.all([handle.geometry(), handle.affected(), handle.proxy(), handle.lines({ count: LINES })]);
-  return { handle, report: handle.report, soup, affected, proxy, lines, seams };
+  return { handle, report: handle.report, soup, affected, proxy, lines };
 }
 
 async function seamsOn({ handle, proxy }: Texturing, before: ProxyGeometry, seams: readonly Seam[]): Promise<Seam[]> {
