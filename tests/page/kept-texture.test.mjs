@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, test } from 'node:test';
 import { belongings, keeps, reload } from './kept.mjs';
-import { dropFile, make, saved, settled, slide } from './page.mjs';
+import { dropFile, saved, settled, slide } from './page.mjs';
 import { served } from './site.mjs';
 import { another, BOX, drag, drawSeam, idle, makeTexture, ON_TOP, show, withModel as withModelOn } from './textures.mjs';
 
@@ -20,8 +20,17 @@ async function all(page) {
   return { texts, stale, shown, file: await saved(page, '#texture-download') };
 }
 
-/** Without waiting until anything is there again. */
-async function leave(page) {
+/** Loads the page again, where a button is pressed once as soon as the texture is being made. */
+async function leave(page, button) {
+  await page.addInitScript((id) => {
+    const isOnce = sessionStorage.getItem('pressed') === id;
+    sessionStorage.setItem('pressed', id);
+    new MutationObserver((_, observer) => {
+      if (isOnce || document.getElementById('job-label')?.textContent !== 'Making the texture again') return;
+      observer.disconnect();
+      document.getElementById(id).click();
+    }).observe(document, { subtree: true, childList: true, characterData: true });
+  }, button);
   await page.reload();
   await settled(page);
 }
@@ -59,13 +68,13 @@ describe('a texture', () => {
 
   test('lets what a person wants meanwhile go first, and leaves it shown', () =>
     withModel(async (page) => {
+      await slide(page, '#surface-resolution', 16);
       await makeTexture(page);
       await keeps(page, 'texture', 'view');
-      await leave(page);
-      await slide(page, '#surface-resolution', 16);
-      // Before the texture's job, while that is at work, or after it.
-      await page.evaluate(() => document.getElementById('surface').click());
+      await leave(page, 'surface');
       await page.waitForFunction(() => document.querySelectorAll('#results li button').length === 4);
+      const order = await page.locator('#results .name').allTextContents();
+      assert.deepEqual(order.slice(1), ['Surface', 'Textured']);
       await idle(page);
       assert.ok(await page.isChecked('[data-item=surface]'));
       assert.ok(!(await page.isChecked('[data-item=textured]')));
@@ -76,21 +85,14 @@ describe('a texture', () => {
     withModel(async (page) => {
       await makeTexture(page);
       await keeps(page, 'texture', 'view');
-      await page.addInitScript(() => {
-        new MutationObserver((_, observer) => {
-          if (document.getElementById('job-label')?.textContent !== 'Making the texture again') return;
-          observer.disconnect();
-          document.getElementById('job-cancel').click();
-        }).observe(document, { subtree: true, childList: true, characterData: true });
-      });
-      await leave(page);
+      await leave(page, 'job-cancel');
       await page.waitForFunction(() => document.getElementById('note').textContent === 'Making the texture again: cancelled');
       await keeps(page);
       assert.ok(await page.isHidden('#problem'));
       await makeTexture(page);
       await keeps(page, 'texture', 'view');
       await belongings(page, "const { id } = all.find(({ kind }) => kind === 'texture'); const kept = await answer(contents.get(id)); kept.recipe.first.cone = 200; contents.put(kept, id);");
-      await leave(page);
+      await page.reload();
       await page.waitForSelector('#problem:not([hidden])');
       assert.equal(await page.textContent('#problem-title'), 'The texture could not be made again');
       assert.match(await page.textContent('#problem-detail'), /an angle from 10 to 80 is needed/);

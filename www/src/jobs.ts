@@ -25,18 +25,18 @@ export class Jobs {
     while (this.#running) await this.#running.settled;
   }
 
-  /** Cancels what runs, waits until it has stopped, then starts `work`, which tells its own progress. */
-  async run<T>(label: string, work: (options: Required<CallOptions>) => Promise<T>): Promise<T> {
+  /** Cancels what runs, waits until it has stopped, then starts `work`, which tells its own progress. It is `isPatient` that is asked for again if it had to stop. */
+  async run<T>(label: string, work: (options: Required<CallOptions>) => Promise<T>, isPatient = false): Promise<T> {
     while (this.#running) {
       this.#running.controller.abort(FOLLOWED);
       await this.#running.settled;
     }
     const controller = new AbortController();
-    this.#store.set({ job: { label, stage: '', canCancel: true } });
+    this.#store.set({ job: { label, stage: '', canCancel: true, isPatient } });
     const result = work({
       signal: controller.signal,
       onProgress: (fraction, stage) => {
-        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction: Number.isFinite(fraction) ? fraction : undefined, canCancel: true } });
+        if (!controller.signal.aborted) this.#store.set({ job: { label, stage, fraction: Number.isFinite(fraction) ? fraction : undefined, canCancel: true, isPatient } });
       },
     });
     const running = { controller, settled: result.catch(() => undefined) };

@@ -96,6 +96,13 @@ export interface Job {
   /** 0 to 1; undefined while it is not known. */
   readonly fraction?: number;
   readonly canCancel: boolean;
+  /** Whether it makes way for any other, to come back after that. */
+  readonly isPatient?: boolean;
+}
+
+/** Whether no other job may start. */
+export function isBusy({ job }: State): boolean {
+  return job !== undefined && !job.isPatient;
 }
 
 export const ITEMS = [

@@ -21,7 +21,7 @@ export async function remade({ jobs }: Page, source: Soup, recipe: TextureRecipe
       const { value } = await jobs.run('Making the texture again', (options) => {
         signal = options.signal;
         return made(source, recipe, options);
-      });
+      }, true);
       if (isWanted()) return value;
       value.handle.free();
     } catch (error) {

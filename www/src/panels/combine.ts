@@ -10,6 +10,7 @@ import type { PrimitiveName } from '../primitives.ts';
 import { sentence } from '../problem.ts';
 import { areaOf, volumeOf } from '../results.ts';
 import type { Combined } from '../results.ts';
+import { isBusy } from '../state.ts';
 import type { GizmoMode, Timed } from '../state.ts';
 import { placementFields } from './placement.ts';
 import { saver } from './saver.ts';
@@ -66,8 +67,8 @@ function chooser(page: Page): void {
     if (menu.value) void makeSecond(page, menu.value as PrimitiveName);
     menu.value = '';
   });
-  page.store.on(['model', 'job'], ({ model, job }) => {
-    for (const id of ['second-choose', 'second-shape']) byId<HTMLButtonElement | HTMLSelectElement>(id).disabled = !model || job !== undefined;
+  page.store.on(['model', 'job'], (state) => {
+    for (const id of ['second-choose', 'second-shape']) byId<HTMLButtonElement | HTMLSelectElement>(id).disabled = !state.model || isBusy(state);
   });
 }
 

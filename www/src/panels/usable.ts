@@ -1,5 +1,6 @@
 import { byId } from '../dom.ts';
 import type { Page } from '../page.ts';
+import { isBusy } from '../state.ts';
 import type { State } from '../state.ts';
 
 /** Scrolls the figures of what was just made into sight where the panels have their own column; on a narrow page the view is what to look at. */
@@ -11,9 +12,9 @@ export function reveal({ job }: State, id: string): void {
 export function enableWhenUsable({ store }: Page, button: HTMLButtonElement, isPossible: (state: State) => boolean = () => true): void {
   let hadFocus = false;
   store.on(['model', 'job', 'recipe', 'misfit', 'second', 'surface', 'repair', 'offset', 'combined', 'texture', 'seams'], (state) => {
-    const { model, job } = state;
+    const { model } = state;
     hadFocus ||= document.activeElement === button;
-    button.disabled = !model?.oriented || job !== undefined || !isPossible(state);
+    button.disabled = !model?.oriented || isBusy(state) || !isPossible(state);
     if (!button.disabled) {
       if (hadFocus && document.activeElement === document.body) button.focus();
       hadFocus = false;
