@@ -81,6 +81,22 @@ describe('a texture', () => {
       await keeps(page, 'result', 'texture', 'view');
     }));
 
+  test('that is made anew meanwhile takes the place of the one that was kept, with the picture', () =>
+    withModel(async (page) => {
+      await makeTexture(page);
+      await dropFile(page, 'red.png', RED, '#texture-drop');
+      await keeps(page, 'picture', 'texture', 'view');
+      await leave(page, 'texture');
+      await page.waitForSelector('#texture-result:not([hidden])');
+      await idle(page);
+      const before = await all(page);
+      assert.equal(before.texts[1], 'red.png');
+      await page.click('#texture-checker');
+      await keeps(page, 'texture', 'view');
+      await reload(page, 1);
+      assert.equal(await page.textContent('#texture-picture'), 'a checker');
+    }));
+
   test('that is cancelled while it is made again is forgotten; one that cannot be made is told', () =>
     withModel(async (page) => {
       await makeTexture(page);

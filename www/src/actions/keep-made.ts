@@ -7,6 +7,7 @@ import type { Left } from '../left.ts';
 import { ALL_MADE, labelOf, MADE, nextId } from '../made.ts';
 import type { Result } from '../made.ts';
 import { packed } from '../packing.ts';
+import type { PackedTexture } from '../packing.ts';
 import { isSame } from '../page.ts';
 import type { Page, Source } from '../page.ts';
 import type { Picture } from '../picture.ts';
@@ -17,7 +18,7 @@ import { fail } from './fail.ts';
 import { newId } from './open.ts';
 import { remade } from './remake.ts';
 import { releaseRestored, restored } from './restore.ts';
-import type { KeptFile, KeptTexture, Restored } from './restore.ts';
+import type { KeptFile, Restored } from './restore.ts';
 import { mayMove } from './texture.ts';
 
 const SECOND = 'Second model';
@@ -54,7 +55,7 @@ class Keeping {
   /** How all is shown, as it was written last. */
   #left?: string;
   /** A texture that is still to be made again. */
-  #awaited?: KeptTexture;
+  #awaited?: PackedTexture;
   #isReady = false;
   #isForgotten = false;
   #isOver = false;
@@ -98,15 +99,15 @@ class Keeping {
   }
 
   /** One that fails, or that the person cancels, is not tried again. */
-  async #remake(texture: KeptTexture, left: Left | undefined): Promise<void> {
+  async #remake(texture: PackedTexture, left: Left | undefined): Promise<void> {
     const { store } = this.#page;
     const { visible, model } = store.state;
-    const { milliseconds, recipe, picture } = texture;
+    const { milliseconds, recipe } = texture;
     const isWanted = (): boolean => !this.#isOver && this.#awaited === texture && !store.state.texture;
     try {
       const value = model?.shape.kind === 'soup' ? await remade(this.#page, model.shape, recipe, isWanted) : undefined;
       this.#awaited = undefined;
-      if (value) store.set({ texture: { value, milliseconds }, picture: store.state.picture ?? picture, isFlowing: mayMove(), ...asTextureLeft(value, left, store.state.visible === visible) });
+      if (value) store.set({ texture: { value, milliseconds }, isFlowing: mayMove(), ...asTextureLeft(value, left, store.state.visible === visible) });
     } catch (error) {
       this.#awaited = undefined;
       this.#write(() => removeBelongings((['texture', 'picture'] as const).map((kind) => onlyOne(this.#source, kind))));
@@ -115,13 +116,17 @@ class Keeping {
     if (!this.#isOver) this.follow();
   }
 
-  #show({ results, second, left }: Restored): void {
+  #show({ results, second, picture, left }: Restored): void {
     const { store } = this.#page;
     const { oriented } = this.#source;
     const kept = new Map<Result, string>();
     for (const [id, making] of results) kept.set({ id: nextId(store.state.results) + kept.size, ...making }, id);
     for (const [result, id] of kept) this.#entries.set(result, { id, title: labelOf(result), isKept: true });
     if (oriented && !this.#entries.has(oriented)) this.#entries.set(oriented, { id: onlyOne(this.#source, 'normals'), title: NORMALS, isKept: true });
+    if (picture && !store.state.picture) {
+      this.#entries.set(picture, { id: onlyOne(this.#source, 'picture'), title: PICTURE, isKept: true });
+      store.set({ picture });
+    }
     if (second && this.#page.secondSource) second.value.shape.free();
     else if (second) {
       this.#entries.set(second.source, { id: onlyOne(this.#source, 'second'), title: SECOND, isKept: true });
@@ -169,7 +174,7 @@ class Keeping {
       things.set(result, { id, kind, title: labelOf(result), content: () => packed(result) });
     }
     if (second) things.set(second, { id: onlyOne(this.#source, 'second'), kind: 'second', title: SECOND, content: () => fileOf(second) });
-    if (picture && store.state.texture) things.set(picture, { id: onlyOne(this.#source, 'picture'), kind: 'picture', title: PICTURE, content: () => pictureFileOf(picture) });
+    if (picture && (store.state.texture || this.#awaited)) things.set(picture, { id: onlyOne(this.#source, 'picture'), kind: 'picture', title: PICTURE, content: () => pictureFileOf(picture) });
     const oriented = source?.oriented;
     if (oriented) things.set(oriented, { id: onlyOne(this.#source, 'normals'), kind: 'normals', title: NORMALS, content: async () => oriented });
     return things;

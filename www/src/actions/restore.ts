@@ -18,15 +18,12 @@ export interface Restored {
   /** In their order, by what they are kept as. */
   readonly results: ReadonlyMap<string, Making>;
   readonly second?: { readonly source: Source; readonly value: Second };
-  readonly texture?: KeptTexture;
+  /** Still to be made. */
+  readonly texture?: PackedTexture;
+  readonly picture?: Picture;
   readonly left?: Left;
   /** Titles of what could not be read, and is not kept any longer. */
   readonly lost: readonly string[];
-}
-
-/** A texture is still to be made. */
-export interface KeptTexture extends PackedTexture {
-  readonly picture?: Picture;
 }
 
 /** Reads all that belongs to a model but is not there, one after the other; what fails is left out. */
@@ -53,12 +50,12 @@ export async function restored(page: Page, owner: Owner, there: ReadonlySet<stri
   const second = ofSecond && (await attempt(ofSecond, (content) => secondOf(page, content)));
   const [ofTexture] = ofKind('texture');
   const [ofPicture] = page.store.state.picture ? [] : ofKind('picture');
-  const packedTexture = ofTexture && (await attempt(ofTexture, async (content) => unpackedTexture(content)));
-  const picture = packedTexture && ofPicture && (await attempt(ofPicture, pictureOf));
+  const texture = ofTexture && (await attempt(ofTexture, async (content) => unpackedTexture(content)));
+  const picture = ofPicture && (await attempt(ofPicture, pictureOf));
   const left = (await contentOf(onlyOne(owner, 'view'))) as Left | undefined;
   const gone = [...lost, ...all.slice(0, -MOST)];
   if (gone.length > 0) await removeBelongings(gone.map(({ id }) => id));
-  return { results, second, texture: packedTexture && { ...packedTexture, picture }, left, lost: lost.map(({ title }) => title) };
+  return { results, second, texture, picture, left, lost: lost.map(({ title }) => title) };
 }
 
 /** Gives back what is not wanted after all. */
